@@ -1,0 +1,108 @@
+#include "cli/app.hpp"
+
+#include "common/error.hpp"
+#include "servoid/sid_version.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace servoid::cli {
+
+void Output::print_json(const Json& object) const {
+    if (json) std::cout << object.dump(2) << '\n' << std::flush;
+}
+
+void Output::line(const std::string& text) const {
+    if (!json && !quiet) std::cout << text << '\n';
+}
+
+void Output::note(const std::string& text) const {
+    if (!quiet) std::cerr << text << '\n';
+}
+
+std::string Output::bold(const std::string& text) const {
+    return colour ? "\033[1m" + text + "\033[0m" : text;
+}
+
+std::string Output::dim(const std::string& text) const {
+    return colour ? "\033[2m" + text + "\033[0m" : text;
+}
+
+void add_output_options(CLI::App& verb, Output& output) {
+    verb.add_flag("--json", output.json, "one JSON object on stdout, nothing else there");
+    verb.add_flag("--quiet", output.quiet, "no text but errors");
+    const char* no_colour = std::getenv("NO_COLOR");
+    output.colour = isatty(STDOUT_FILENO) && !(no_colour && *no_colour);
+}
+
+void add_capture_options(CLI::App& verb, CaptureOptions& options) {
+    verb.add_option("--map", options.map,
+                    "TOML file that names foreign columns (needed for .mat files)");
+    verb.add_option("--band", options.band_Hz,
+                    "upper edge of the compared band, Hz (else chosen from the data)")
+        ->check(CLI::PositiveNumber);
+    verb.add_option("--input", options.input,
+                    "the torque that acts on the axis where both were recorded: ref or measured")
+        ->check(CLI::IsMember({"ref", "measured"}));
+}
+
+void add_examples(CLI::App& verb, const std::string& examples) {
+    verb.footer("Examples:\n" + examples);
+}
+
+std::vector<Capture> CaptureOptions::read_files(const std::vector<std::string>& paths,
+                                                const Model* model) const {
+    const CaptureScales scales = model ? scales_of(*model) : CaptureScales{};
+    std::optional<SignalMap> signal_map;
+    if (!map.empty()) signal_map = read_signal_map(map);
+    std::vector<Capture> out;
+    for (const std::string& path : paths) {
+        out.push_back(read_capture(path, scales, signal_map ? &*signal_map : nullptr));
+        if (model && out.back().linear != (model->motion == Motion::linear))
+            throw FileError(path, 0,
+                            out.back().linear
+                                ? "a linear axis (m, N), but the model's motion is \"rotary\""
+                                : "a rotary axis (rad, N·m), but the model's motion is \"linear\"");
+    }
+    return out;
+}
+
+std::vector<Capture> CaptureOptions::read(const Model* model) const {
+    return read_files(files, model);
+}
+
+MotionOptions CaptureOptions::motion() const {
+    MotionOptions out;
+    out.band_Hz = band_Hz;
+    if (input == "ref") out.input = Input::reference;
+    if (input == "measured") out.input = Input::measured;
+    return out;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"servoid: the inertia of a servo axis from a tiny move, and the physics that a "
+                 "model of it still lacks"};
+    app.set_version_flag("--version", SID_VERSION_STRING);
+    app.require_subcommand(1);
+    app.footer("Every verb has --help with examples.");
+    for (auto add : {add_simulate, add_identify, add_sweep, add_friction, add_compare, add_add,
+                     add_effects})
+        add(app);
+    try {
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : int(ExitCode::usage);
+    } catch (const Error& e) {
+        std::cerr << "servoid: " << e.what() << '\n';
+        return int(e.code());
+    } catch (const std::exception& e) {
+        std::cerr << "servoid: a defect of ours, please report it: " << e.what() << '\n';
+        return int(ExitCode::defect);
+    }
+}
+
+} // namespace servoid::cli

@@ -1,0 +1,67 @@
+// The command line: one file per verb, each adds its own subcommand.
+#pragma once
+
+#include "capture/capture.hpp"
+#include "compare/motion.hpp"
+#include "model/model.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace servoid::cli {
+
+using Json = nlohmann::ordered_json;
+
+// What every verb has.
+struct Output {
+    bool json = false;
+    bool quiet = false;
+    bool colour = false; // decided once: a terminal, and NO_COLOR not set
+
+    // One JSON object on stdout, or nothing where text was asked for.
+    void print_json(const Json& object) const;
+    // A line of the answer on stdout (nothing under --json or --quiet).
+    void line(const std::string& text) const;
+    // A remark on stderr (nothing under --quiet).
+    void note(const std::string& text) const;
+    std::string bold(const std::string& text) const;
+    std::string dim(const std::string& text) const;
+};
+
+// Options of every verb that reads captures.
+struct CaptureOptions {
+    std::vector<std::string> files;
+    std::string map;
+    std::optional<double> band_Hz;
+    std::string input; // "", "ref", "measured"
+
+    std::vector<Capture> read(const Model* model) const;
+    std::vector<Capture> read_files(const std::vector<std::string>& paths,
+                                    const Model* model) const;
+    MotionOptions motion() const;
+};
+
+// Adds --json and --quiet; colour is found out.
+void add_output_options(CLI::App& verb, Output& output);
+void add_capture_options(CLI::App& verb, CaptureOptions& options);
+
+// "[examples]" at the end of --help.
+void add_examples(CLI::App& verb, const std::string& examples);
+
+// The verbs. Each callback does its work and throws servoid::Error where it cannot.
+void add_simulate(CLI::App& app);
+void add_identify(CLI::App& app);
+void add_sweep(CLI::App& app);
+void add_friction(CLI::App& app);
+void add_compare(CLI::App& app);
+void add_add(CLI::App& app);
+void add_effects(CLI::App& app);
+
+// Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
+int run(int argc, char** argv);
+
+} // namespace servoid::cli

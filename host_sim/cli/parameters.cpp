@@ -1,0 +1,109 @@
+#include "cli/parameters.hpp"
+
+#include "effects/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace servoid::cli {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json parameter(double value, double std, const std::string& unit) {
+    return {{"value", number(value)}, {"std", number(std)}, {"unit", unit}};
+}
+
+namespace {
+
+std::string unit_of_coefficient(const FitResult& fit, const Coefficient& c, bool ampere) {
+    if (c.term < 0) return unit_of(Quantity::inertia, fit.model.motion, ampere);
+    const Effect* effect = find_effect(fit.model.effects[size_t(c.term)].name);
+    return unit_of(effect->info().parameters[size_t(c.index)].quantity, fit.model.motion, ampere);
+}
+
+Json controller_json(const Controller& c) {
+    Json out = {{"type", c.type == Controller::Type::p_pi ? "p_pi" : "p_p"},
+                {"position_gain", c.position_gain_per_s},
+                {"speed_gain", c.speed_gain}};
+    if (c.type == Controller::Type::p_pi) out["integral_time"] = c.integral_time_s;
+    out["sample_time"] = c.sample_time_s;
+    if (c.speed_average != 1) out["speed_average"] = c.speed_average;
+    return out;
+}
+
+Json drive_json(const Drive& d) {
+    Json out = Json::object();
+    if (d.rated_torque > 0) out["rated_torque"] = d.rated_torque;
+    if (d.torque_constant > 0) out["torque_constant"] = d.torque_constant;
+    if (d.torque_limit > 0) out["torque_limit"] = d.torque_limit;
+    return out;
+}
+
+Json sensor_json(const Model& model) {
+    const double step = model.sensor.position_per_count;
+    if (model.motion == Motion::linear) return {{"metres_per_count", step}};
+    return {{"counts_per_rev", 2 * std::numbers::pi / step}};
+}
+
+Json effects_json(const Model& model) {
+    Json out = Json::object();
+    for (const EffectTerm& term : model.effects) {
+        Json table = Json::object();
+        if (!term.law.empty()) table["law"] = term.law;
+        for (const auto& [key, value] : term.parameters) table[key] = value;
+        if (!term.fixed.empty()) table["fixed"] = term.fixed;
+        const Effect* effect = find_effect(term.name);
+        if (effect && effect->info().repeatable) out[term.name].push_back(table);
+        else out[term.name] = table;
+    }
+    return out;
+}
+
+} // namespace
+
+Json fitted_parameters(const FitResult& fit, bool ampere) {
+    Json out = Json::object();
+    for (size_t i = 0; i < fit.coefficients.size(); ++i) {
+        const Coefficient& c = fit.coefficients[i];
+        out[coefficient_name(fit.model, c)] =
+            parameter(fit.values[Eigen::Index(i)], fit.std[Eigen::Index(i)],
+                      unit_of_coefficient(fit, c, ampere));
+    }
+    return out;
+}
+
+void print_parameters(const Output& out, const FitResult& fit, bool ampere) {
+    for (size_t i = 0; i < fit.coefficients.size(); ++i) {
+        const Coefficient& c = fit.coefficients[i];
+        const std::string name = coefficient_name(fit.model, c);
+        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}{}", name,
+                             fit.values[Eigen::Index(i)], fit.std[Eigen::Index(i)],
+                             unit_of_coefficient(fit, c, ampere), c.fixed ? "  (fixed)" : ""));
+    }
+    for (const std::string& name : fit.at_bound)
+        out.line(fmt::format("  {} would come out negative and is held at 0: something else is "
+                             "missing, or it is not there",
+                             name));
+}
+
+Json model_json(const Model& model) {
+    Json out = Json::object();
+    out["name"] = model.name;
+    out["motion"] = model.motion == Motion::rotary ? "rotary" : "linear";
+    out["plant"] = {{"inertia", model.inertia}};
+    if (model.inertia_fixed) out["plant"]["fixed"] = {"inertia"};
+    if (model.controller) out["controller"] = controller_json(*model.controller);
+    if (model.sensor.position_per_count > 0) out["sensor"] = sensor_json(model);
+    const Json drive = drive_json(model.drive);
+    if (!drive.empty()) out["drive"] = drive;
+    if (!model.effects.empty()) out["effects"] = effects_json(model);
+    return out;
+}
+
+std::string percent(double ratio) {
+    return std::isfinite(ratio) ? fmt::format("{:.3g} %", 100 * ratio) : "–";
+}
+
+} // namespace servoid::cli

@@ -1,0 +1,61 @@
+// servoid add: one more effect, fitted with everything else.
+#include "cli/app.hpp"
+#include "cli/parameters.hpp"
+#include "common/file.hpp"
+#include "compare/add_effect.hpp"
+#include "compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace servoid::cli {
+
+namespace {
+
+struct Options {
+    Output output;
+    CaptureOptions captures;
+    std::string effect, model, out;
+};
+
+void run_add(const Options& o) {
+    const Model model = read_model(o.model);
+    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
+    const Addition a = add_effect(model, o.effect, motions);
+    const bool ampere = captures.front().torque_in_ampere;
+    if (!o.out.empty()) write_file(o.out, format_model(a.after.model));
+    o.output.print_json({{"schema", "servoid.add/1"},
+                         {"effect", o.effect},
+                         {"error_before", number(a.before.torque_error)},
+                         {"error_after", number(a.after.torque_error)},
+                         {"band_Hz", motions.front().band_Hz},
+                         {"at_bound", a.after.at_bound},
+                         {"model", model_json(a.after.model)},
+                         {"model_parameters", fitted_parameters(a.after, ampere)}});
+    o.output.line(fmt::format("torque error   {} -> {}   with {} ({:.3g} Hz band)",
+                              percent(a.before.torque_error),
+                              o.output.bold(percent(a.after.torque_error)), o.effect,
+                              motions.front().band_Hz));
+    print_parameters(o.output, a.after, ampere);
+    if (!o.out.empty()) o.output.line("wrote " + o.out);
+}
+
+} // namespace
+
+void add_add(CLI::App& app) {
+    auto o = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("add", "add one effect, fit it and everything else again");
+    verb->add_option("effect", o->effect, "its name, see: servoid effects")->required();
+    verb->add_option("model", o->model, "model file (TOML)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("--out", o->out, "where the larger model is written (- for stdout)");
+    add_capture_options(*verb, o->captures);
+    add_output_options(*verb, o->output);
+    add_examples(*verb, "  servoid add viscous model.toml run.csv --out better.toml\n"
+                        "  servoid add coulomb better.toml run.csv --out better.toml --json");
+    verb->callback([o] { run_add(*o); });
+}
+
+} // namespace servoid::cli

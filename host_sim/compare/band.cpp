@@ -1,0 +1,70 @@
+// The choice of the band in which torque and motion are compared.
+#include "common/error.hpp"
+#include "compare/motion.hpp"
+#include "compare/noise.hpp"
+#include "compare/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double kPowerShare = 0.998; // of the torque lies below half the band
+constexpr double kNoiseShare = 0.03;  // of the torque may be noise of the acceleration: the inertia
+                                      // is then low by at most the square of it, 0.1 %
+constexpr double kHighest = 0.11;     // of the sample rate: room for the smoothing of the motion
+
+// Frequency below which `share` of the power of the signal (without its mean) lies.
+double edge_of_power(const Vector& signal, double sample_time_s, double share) {
+    const Spectrum spectrum = power_spectrum(signal, sample_time_s);
+    const double total = spectrum.power.sum();
+    double sum = 0;
+    for (Eigen::Index k = 0; k < spectrum.power.size(); ++k) {
+        sum += spectrum.power[k];
+        if (sum >= share * total) return double(k) * spectrum.step_Hz;
+    }
+    return double(spectrum.power.size() - 1) * spectrum.step_Hz;
+}
+
+double rms(const Vector& x) { return x.size() ? std::sqrt(x.squaredNorm() / double(x.size())) : 0; }
+
+// Noise of the acceleration against the acceleration itself in a band: as torque, what the
+// inertia makes of it.
+double noise_share(const Capture& capture, const Vector& source, double noise, double band_Hz) {
+    const LowPass low_pass(capture.sample_time_s, band_Hz);
+    const double margin = low_pass.half_length_s();
+    const double last = double(source.size() - 1) * capture.sample_time_s - margin;
+    const double step = std::max(capture.sample_time_s, 1 / (4 * band_Hz));
+    if (last <= margin) return 1;
+    const Grid grid{margin, step, Eigen::Index((last - margin) / step)};
+    const int order = capture.has_position() ? 2 : 1;
+    const double acceleration = rms(low_pass.apply(source, grid, order));
+    return acceleration > 0 ? noise * low_pass.noise_gain(order) / acceleration : 1;
+}
+
+} // namespace
+
+double choose_band(const Capture& capture, Input input) {
+    const std::vector<double>& torque = *choose_torque(capture, input).values;
+    const std::vector<double>& motion =
+        capture.has_position() ? capture.position : capture.velocity;
+    const Eigen::Map<const Vector> t(torque.data(), Eigen::Index(torque.size()));
+    const Vector m = Eigen::Map<const Vector>(motion.data(), Eigen::Index(motion.size()));
+    const double quantum =
+        capture.has_position() ? capture.position_quantum : capture.velocity_quantum;
+    const double noise = sample_noise(m, quantum);
+    const double length_s = double(capture.rows()) * capture.sample_time_s;
+    const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
+    double band = std::clamp(2 * edge_of_power(t, capture.sample_time_s, kPowerShare), lowest,
+                             kHighest / capture.sample_time_s);
+    while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare) band /= 1.2;
+    // Two significant digits: a band is stated and repeated by people.
+    const double unit = std::pow(10, std::floor(std::log10(band)) - 1);
+    return std::max(unit, std::floor(band / unit) * unit);
+}
+
+} // namespace servoid

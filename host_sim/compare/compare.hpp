@@ -1,0 +1,42 @@
+// How far a model and its measurements are apart, and where.
+#pragma once
+
+#include "compare/noise_floor.hpp"
+#include "compare/where.hpp"
+#include "model/model.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace servoid {
+
+// Closed-loop simulation with the recorded reference against the record.
+struct LoopError {
+    double torque_error = 0;   // ‖T − T̂‖/‖T‖
+    double position_error = 0; // ‖θ − θ̂‖/‖θ‖
+};
+
+struct Comparison {
+    double torque_error = 0; // ‖T − T̂‖/‖T‖, both through the same band limit
+    NoiseFloor floor;
+    std::optional<LoopError> loop; // none without a controller or a position reference
+    std::vector<Regime> where;
+    long samples = 0; // rows of the captures
+    double samples_used_share = 0; // of the compared instants; the rest stands still
+    double duration_s = 0;
+    double band_Hz = 0; // the highest of the captures
+    std::string torque_name;
+};
+
+// All captures together: powers add up.
+Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions);
+
+// prepare_motion for each capture.
+std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
+                                        const MotionOptions& options);
+
+// Residual T − T̂ on the grid of one capture.
+Eigen::VectorXd residual_torque(const Model& model, const PreparedMotion& motion);
+
+} // namespace servoid

@@ -1,0 +1,179 @@
+#include "compare/motion.hpp"
+
+#include "common/error.hpp"
+#include "compare/noise.hpp"
+#include "compare/period.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid {
+
+namespace {
+
+constexpr double kSmoothing = 3.0;   // band of the motion over the band of comparison
+constexpr double kOversampling = 4.0; // grid points per period of the band edge
+constexpr double kRestShare = 0.05;  // a point that sees more rest than this is not used
+
+using Vector = Eigen::VectorXd;
+
+Vector as_vector(const std::vector<double>& values) {
+    return Eigen::Map<const Vector>(values.data(), Eigen::Index(values.size()));
+}
+
+// Uneven times (a host loop): straight lines between the rows, on a grid of the median step.
+Vector on_even_grid(const Capture& capture, const std::vector<double>& values) {
+    if (capture.uniform) return as_vector(values);
+    const double step = capture.sample_time_s, start = capture.time_s.front();
+    const auto n = Eigen::Index((capture.time_s.back() - start) / step) + 1;
+    Vector out(n);
+    size_t row = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double t = start + double(i) * step;
+        while (row + 2 < capture.rows() && capture.time_s[row + 1] < t) ++row;
+        const double share =
+            (t - capture.time_s[row]) / (capture.time_s[row + 1] - capture.time_s[row]);
+        out[i] = values[row] + share * (values[row + 1] - values[row]);
+    }
+    return out;
+}
+
+// The highest band whose smoothing kernel still fits the sample rate.
+double highest_band(double sample_time_s) { return 0.34 / sample_time_s / kSmoothing; }
+
+Grid motion_grid(Eigen::Index rows, double sample_time_s, double margin_s) {
+    const double step = sample_time_s;
+    const double first = std::ceil(margin_s / step) * step;
+    const double last = double(rows - 1) * step - margin_s;
+    return {first, step, std::max<Eigen::Index>(0, Eigen::Index((last - first) / step) + 1)};
+}
+
+void differentiate(const Capture& capture, PreparedMotion& out, double smoothing_Hz) {
+    const double step = capture.sample_time_s;
+    const LowPass smooth(step, smoothing_Hz);
+    const Vector source =
+        on_even_grid(capture, capture.has_position() ? capture.position : capture.velocity);
+    const Grid grid = motion_grid(source.size(), step, smooth.half_length_s());
+    const int order = capture.has_position() ? 0 : 1;
+    MotionView& motion = out.motion;
+    motion.sample_time_s = step;
+    motion.time_s = Vector::LinSpaced(grid.count, grid.start_s,
+                                      grid.start_s + step * double(grid.count - 1));
+    if (grid.count == 0) return;
+    motion.velocity = smooth.apply(source, grid, 1 - order);
+    motion.acceleration = smooth.apply(source, grid, 2 - order);
+    motion.position = order == 0 ? smooth.apply(source, grid, 0) : Vector();
+    out.motion_start_s = grid.start_s;
+    out.position_noise = sample_noise(source, order == 0 ? capture.position_quantum
+                                                         : capture.velocity_quantum);
+    motion.velocity_noise = out.position_noise * smooth.noise_gain(1 - order);
+}
+
+// Instants that the band limit can reach; a whole number of them to a known period.
+Grid comparison_grid(const PreparedMotion& prepared, double band_Hz) {
+    const Capture& capture = *prepared.capture;
+    const double margin = prepared.low_pass->half_length_s() + 1.5 * capture.sample_time_s +
+                          std::abs(capture.torque_delay_s);
+    const double first = prepared.motion_start_s + margin;
+    const double last = prepared.motion_start_s +
+                        double(prepared.motion.size() - 1) * capture.sample_time_s - margin;
+    double step = 1 / (kOversampling * band_Hz);
+    if (prepared.period_s) step = *prepared.period_s / std::ceil(*prepared.period_s / step);
+    return {first, step, last > first ? Eigen::Index((last - first) / step) + 1 : 0};
+}
+
+// Where the axis is at rest, friction holds whatever it has to: such points say nothing of a law.
+std::vector<bool> moving(const PreparedMotion& prepared) {
+    const MotionView& motion = prepared.motion;
+    const double threshold = std::max(4 * motion.velocity_noise,
+                                      1e-4 * motion.velocity.cwiseAbs().maxCoeff());
+    Vector rest(motion.size());
+    // A crossing of zero is no rest: only a stretch that lasts is.
+    const auto shortest = Eigen::Index(0.25 / prepared.band_Hz / motion.sample_time_s) + 2;
+    for (Eigen::Index i = 0; i < motion.size();) {
+        Eigen::Index end = i;
+        while (end < motion.size() && std::abs(motion.velocity[end]) < threshold) ++end;
+        const bool rests = end - i >= shortest;
+        for (; i < end; ++i) rest[i] = rests ? 1 : 0;
+        if (i < motion.size()) rest[i++] = 0;
+    }
+    const Vector share = prepared.band_limit(rest);
+    std::vector<bool> used(size_t(share.size()));
+    for (Eigen::Index k = 0; k < share.size(); ++k) used[size_t(k)] = share[k] < kRestShare;
+    return used;
+}
+
+void refuse_if_short(const PreparedMotion& prepared) {
+    if (prepared.motion.size() > 0 && prepared.grid.count >= 16) return;
+    throw Refusal(prepared.capture->path + fmt::format(": the capture is too short for a band of {:.3g} Hz", prepared.band_Hz),
+                  "at least 0.5 s of motion, or ask for a higher --band");
+}
+
+void refuse_if_still(const PreparedMotion& prepared) {
+    const double top = prepared.motion.velocity.cwiseAbs().maxCoeff();
+    const auto used = std::count(prepared.used.begin(), prepared.used.end(), true);
+    if (top > 5 * prepared.motion.velocity_noise && used >= 16) return;
+    throw Refusal(prepared.capture->path + ": the axis does not move",
+                  "a periodic move in both directions, well above the encoder's resolution");
+}
+
+} // namespace
+
+TorqueChoice choose_torque(const Capture& capture, Input input) {
+    const bool has_ref = !capture.torque_ref.empty(), has_measured = !capture.torque.empty();
+    if (input == Input::reference && !has_ref)
+        throw Error(ExitCode::bad_file, capture.path + ": no torque reference column, and "
+                                                       "--input ref asks for it");
+    if (input == Input::measured && !has_measured)
+        throw Error(ExitCode::bad_file, capture.path + ": no measured torque column, and "
+                                                       "--input measured asks for it");
+    if (has_measured && input != Input::reference)
+        return {&capture.torque, false, Input::measured, "torque"};
+    return {&capture.torque_ref, capture.ref_held, Input::reference, "torque_ref"};
+}
+
+Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const {
+    Grid local = grid;
+    local.start_s -= motion_start_s;
+    Eigen::MatrixXd out(grid.count, columns.cols());
+    for (Eigen::Index c = 0; c < columns.cols(); ++c)
+        out.col(c) = low_pass->apply(columns.col(c), local);
+    return out;
+}
+
+PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options) {
+    PreparedMotion out;
+    out.capture = &capture;
+    const double top = highest_band(capture.sample_time_s);
+    out.band_Hz = options.band_Hz ? *options.band_Hz : choose_band(capture, options.input);
+    if (out.band_Hz > top)
+        throw UsageError(fmt::format("--band: {:.4g} Hz is above what {} can show, {:.4g} Hz",
+                                     out.band_Hz, capture.path, top));
+    differentiate(capture, out, kSmoothing * out.band_Hz);
+    out.low_pass.emplace(capture.sample_time_s, out.band_Hz);
+    out.period_s = find_period(capture);
+    if (out.motion.size() > 0) out.grid = comparison_grid(out, out.band_Hz);
+    refuse_if_short(out);
+
+    const TorqueChoice choice = choose_torque(capture, options.input);
+    out.input = choice.input;
+    out.torque_name = choice.name;
+    const Vector torque = on_even_grid(capture, *choice.values);
+    const double shift = capture.torque_delay_s + (choice.held ? capture.sample_time_s / 2 : 0);
+    out.torque = out.low_pass->apply(torque, out.grid, 0, shift);
+    if (capture.has_position()) out.position = out.band_limit(out.motion.position);
+    out.velocity = out.band_limit(out.motion.velocity);
+    out.acceleration = out.band_limit(out.motion.acceleration);
+    out.used = moving(out);
+    const int order = capture.has_position() ? 0 : 1;
+    out.velocity_noise = out.position_noise * out.low_pass->noise_gain(1 - order);
+    out.acceleration_noise = out.position_noise * out.low_pass->noise_gain(2 - order);
+    out.torque_noise =
+        capture.torque_quantum / std::sqrt(12.0) * out.low_pass->noise_gain(0);
+    refuse_if_still(out);
+    return out;
+}
+
+} // namespace servoid

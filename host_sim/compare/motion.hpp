@@ -1,0 +1,59 @@
+// A capture made ready for the torque view: the motion with its derivatives at the sample rate, and
+// the torque that acted on it, band-limited on a coarser grid.
+#pragma once
+
+#include "capture/capture.hpp"
+#include "compare/low_pass.hpp"
+#include "effects/effect.hpp"
+
+#include <optional>
+
+namespace servoid {
+
+enum class Input { automatic, reference, measured };
+
+struct MotionOptions {
+    std::optional<double> band_Hz; // else chosen from the data
+    Input input = Input::automatic;
+};
+
+// Times are seconds after the capture's first row.
+struct PreparedMotion {
+    const Capture* capture = nullptr;
+    MotionView motion;     // at the sample rate, smoothed at 3 × the band
+    double motion_start_s = 0;
+    std::optional<LowPass> low_pass; // of the motion's rate, at the band
+    Grid grid;             // where torque and columns are compared
+    Eigen::VectorXd torque; // N·m or N on the grid
+    Eigen::VectorXd position, velocity, acceleration; // on the grid
+    std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
+    double band_Hz = 0;
+    std::optional<double> period_s; // stated or found
+    double position_noise = 0;     // standard deviation per sample, rad or m
+    double acceleration_noise = 0; // of the band-limited acceleration
+    double velocity_noise = 0;     // of the band-limited velocity
+    double torque_noise = 0;       // of the band-limited torque, from its quantisation
+    Input input = Input::reference; // which one was used
+    std::string torque_name;        // "torque_ref", "torque"
+
+    // Any signal at the sample rate (rows: motion.size()) through the band limit, on the grid.
+    Eigen::MatrixXd band_limit(const Eigen::MatrixXd& columns) const;
+};
+
+// The motion and torque of one capture. Throws Refusal where there is too little of either.
+PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options);
+
+// The upper edge of the band in which torque and motion carry information, Hz: below the frequency
+// where the noise of the measured position, as torque, reaches a small part of the torque itself.
+double choose_band(const Capture& capture, Input input);
+
+// The torque column that is used, and whether it is a held reference.
+struct TorqueChoice {
+    const std::vector<double>* values = nullptr;
+    bool held = false;
+    Input input = Input::reference;
+    const char* name = "";
+};
+TorqueChoice choose_torque(const Capture& capture, Input input);
+
+} // namespace servoid

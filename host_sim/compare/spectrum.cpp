@@ -1,0 +1,63 @@
+#include "compare/spectrum.hpp"
+
+#include <unsupported/Eigen/FFT>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace servoid {
+
+namespace {
+
+// The next length ≥ n that is 2^a·3^b·5^c: any other makes the transform slow.
+size_t smooth_length(size_t n) {
+    for (;; ++n) {
+        size_t rest = n;
+        for (size_t factor : {2, 3, 5})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
+
+} // namespace
+
+Spectrum power_spectrum(const Eigen::VectorXd& signal, double sample_time_s) {
+    const auto n = static_cast<size_t>(signal.size());
+    const size_t length = smooth_length(n + n % 2);
+    std::vector<double> padded(length + length % 2, 0.0);
+    const double mean = signal.mean();
+    double weight = 0;
+    for (size_t i = 0; i < n; ++i) {
+        const double w =
+            0.5 - 0.5 * std::cos(2 * std::numbers::pi * (double(i) + 0.5) / double(n));
+        padded[i] = w * (signal[Eigen::Index(i)] - mean);
+        weight += w * w;
+    }
+    std::vector<std::complex<double>> lines;
+    Eigen::FFT<double> fft;
+    fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+    fft.fwd(lines, padded);
+    Spectrum out;
+    out.step_Hz = 1 / (double(padded.size()) * sample_time_s);
+    out.power.resize(Eigen::Index(lines.size()));
+    for (size_t k = 0; k < lines.size(); ++k)
+        out.power[Eigen::Index(k)] =
+            (k == 0 ? 1 : 2) * std::norm(lines[k]) / (weight * double(padded.size()));
+    return out;
+}
+
+double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s) {
+    const Spectrum spectrum = power_spectrum(signal, sample_time_s);
+    Eigen::Index k = 0;
+    if (!(spectrum.power.maxCoeff(&k) > 0)) return 0;
+    if (k == 0 || k + 1 >= spectrum.power.size()) return double(k) * spectrum.step_Hz;
+    // Parabola through the logarithms of three bins: exact for a Gaussian-like main lobe.
+    const double a = std::log(spectrum.power[k - 1] + 1e-300);
+    const double b = std::log(spectrum.power[k]);
+    const double c = std::log(spectrum.power[k + 1] + 1e-300);
+    return (double(k) + 0.5 * (a - c) / (a - 2 * b + c)) * spectrum.step_Hz;
+}
+
+} // namespace servoid

@@ -1,0 +1,19 @@
+// Power spectrum of a record.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace servoid {
+
+struct Spectrum {
+    double step_Hz = 0;
+    Eigen::VectorXd power; // of bin k at k·step_Hz; the sum is the mean square of the signal
+};
+
+// Hann-windowed periodogram of the signal without its mean, one-sided.
+Spectrum power_spectrum(const Eigen::VectorXd& signal, double sample_time_s);
+
+// The frequency of the strongest line, interpolated between bins; 0 for a signal that is constant.
+double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s);
+
+} // namespace servoid

@@ -1,0 +1,43 @@
+// Coulomb friction: a torque of constant size against the motion, and sticking at rest.
+#include "effects/effect.hpp"
+#include "effects/direction.hpp"
+#include "plant/axis.hpp"
+
+#include <limits>
+
+namespace servoid {
+namespace {
+
+class Coulomb : public Effect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "coulomb",
+            .law = "Tc·sgn v, with sticking",
+            .signature = "residual changes sign with velocity and is flat in |v|",
+            .reference = "Andoh 2008, section III-A; Coulomb 1785; Armstrong-Hélouvry 1991",
+            .parameters = {{"torque", Quantity::torque, 0, std::numeric_limits<double>::infinity(),
+                            "sliding friction, both directions"}},
+            .replaces = {},
+            .needs = {}};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        axis.coulomb_forward += term.at("torque");
+        axis.coulomb_reverse += term.at("torque");
+    }
+
+    int linear_count() const override { return 1; }
+    Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
+        return direction(motion);
+    }
+};
+
+} // namespace
+
+const Effect& coulomb_effect() {
+    static const Coulomb effect;
+    return effect;
+}
+
+} // namespace servoid
