@@ -60,6 +60,8 @@ void add_friction(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_add(CLI::App& app);
 void add_effects(CLI::App& app);
+void add_diagnose(CLI::App& app);
+void add_refine(CLI::App& app);
 
 // Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
 int run(int argc, char** argv);

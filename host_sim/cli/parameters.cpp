@@ -17,12 +17,6 @@ Json parameter(double value, double std, const std::string& unit) {
 
 namespace {
 
-std::string unit_of_coefficient(const FitResult& fit, const Coefficient& c, bool ampere) {
-    if (c.term < 0) return unit_of(Quantity::inertia, fit.model.motion, ampere);
-    const Effect* effect = find_effect(fit.model.effects[size_t(c.term)].name);
-    return unit_of(effect->info().parameters[size_t(c.index)].quantity, fit.model.motion, ampere);
-}
-
 Json controller_json(const Controller& c) {
     Json out = {{"type", c.type == Controller::Type::p_pi ? "p_pi" : "p_p"},
                 {"position_gain", c.position_gain_per_s},
@@ -52,11 +46,14 @@ Json effects_json(const Model& model) {
     for (const EffectTerm& term : model.effects) {
         Json table = Json::object();
         if (!term.law.empty()) table["law"] = term.law;
-        for (const auto& [key, value] : term.parameters) table[key] = value;
+        for (const auto& [key, value] : term.parameters)
+            table[key] = value;
         if (!term.fixed.empty()) table["fixed"] = term.fixed;
         const Effect* effect = find_effect(term.name);
-        if (effect && effect->info().repeatable) out[term.name].push_back(table);
-        else out[term.name] = table;
+        if (effect && effect->info().repeatable)
+            out[term.name].push_back(table);
+        else
+            out[term.name] = table;
     }
     return out;
 }
@@ -65,26 +62,20 @@ Json effects_json(const Model& model) {
 
 Json fitted_parameters(const FitResult& fit, bool ampere) {
     Json out = Json::object();
-    for (size_t i = 0; i < fit.coefficients.size(); ++i) {
-        const Coefficient& c = fit.coefficients[i];
-        out[coefficient_name(fit.model, c)] =
-            parameter(fit.values[Eigen::Index(i)], fit.std[Eigen::Index(i)],
-                      unit_of_coefficient(fit, c, ampere));
-    }
+    for (const FittedParameter& p : fit.parameters)
+        out[p.name] = parameter(p.estimate.value, p.estimate.std,
+                                unit_of(p.quantity, fit.model.motion, ampere));
     return out;
 }
 
 void print_parameters(const Output& out, const FitResult& fit, bool ampere) {
-    for (size_t i = 0; i < fit.coefficients.size(); ++i) {
-        const Coefficient& c = fit.coefficients[i];
-        const std::string name = coefficient_name(fit.model, c);
-        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}{}", name,
-                             fit.values[Eigen::Index(i)], fit.std[Eigen::Index(i)],
-                             unit_of_coefficient(fit, c, ampere), c.fixed ? "  (fixed)" : ""));
-    }
+    for (const FittedParameter& p : fit.parameters)
+        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}{}", p.name, p.estimate.value,
+                             p.estimate.std, unit_of(p.quantity, fit.model.motion, ampere),
+                             p.fixed ? "  (fixed)" : ""));
     for (const std::string& name : fit.at_bound)
-        out.line(fmt::format("  {} would come out negative and is held at 0: something else is "
-                             "missing, or it is not there",
+        out.line(fmt::format("  {} would come out negative and is held at its bound: something "
+                             "else is missing, or it is not there",
                              name));
 }
 

@@ -2,8 +2,8 @@
 #include "cli/app.hpp"
 #include "cli/parameters.hpp"
 #include "common/file.hpp"
-#include "compare/add_effect.hpp"
 #include "compare/compare.hpp"
+#include "diagnose/add_effect.hpp"
 
 #include <fmt/format.h>
 
@@ -34,10 +34,9 @@ void run_add(const Options& o) {
                          {"at_bound", a.after.at_bound},
                          {"model", model_json(a.after.model)},
                          {"model_parameters", fitted_parameters(a.after, ampere)}});
-    o.output.line(fmt::format("torque error   {} -> {}   with {} ({:.3g} Hz band)",
-                              percent(a.before.torque_error),
-                              o.output.bold(percent(a.after.torque_error)), o.effect,
-                              motions.front().band_Hz));
+    o.output.line(fmt::format(
+        "torque error   {} -> {}   with {} ({:.3g} Hz band)", percent(a.before.torque_error),
+        o.output.bold(percent(a.after.torque_error)), o.effect, motions.front().band_Hz));
     print_parameters(o.output, a.after, ampere);
     if (!o.out.empty()) o.output.line("wrote " + o.out);
 }

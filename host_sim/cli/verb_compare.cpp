@@ -59,7 +59,7 @@ void print(const Output& out, const Comparison& c) {
                              "explain it",
                              percent(c.floor.repeatable_share)));
     if (c.loop)
-        out.line(fmt::format("closed loop    {}   of torque, {} of position", 
+        out.line(fmt::format("closed loop    {}   of torque, {} of position",
                              percent(c.loop->torque_error), percent(c.loop->position_error)));
     out.line("\nwhere it fails                              residual   samples");
     for (const Regime& r : c.where)

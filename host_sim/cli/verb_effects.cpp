@@ -28,10 +28,14 @@ Json to_json(const EffectInfo& info) {
                               {"lower", bound(p.lower)},
                               {"upper", bound(p.upper)},
                               {"meaning", p.meaning}});
-    return {{"name", info.name},           {"law", info.law},
-            {"signature", info.signature}, {"reference", info.reference},
-            {"parameters", parameters},    {"replaces", info.replaces},
-            {"needs", info.needs},         {"rotary_only", info.rotary_only},
+    return {{"name", info.name},
+            {"law", info.law},
+            {"signature", info.signature},
+            {"reference", info.reference},
+            {"parameters", parameters},
+            {"replaces", info.replaces},
+            {"needs", info.needs},
+            {"rotary_only", info.rotary_only},
             {"repeatable", info.repeatable}};
 }
 

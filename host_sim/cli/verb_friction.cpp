@@ -44,9 +44,9 @@ Json to_json(const FrictionResult& r, const Units& u) {
                      {"runs", side->runs}};
     out["runs"] = Json::array();
     for (const SpeedRun& run : r.runs) {
-        Json one = {{"file", run.file},         {"velocity", run.velocity},
-                    {"torque", run.torque},     {"residual", run.residual},
-                    {"spread", run.torque_spread}, {"samples", run.samples}};
+        Json one = {
+            {"file", run.file},         {"velocity", run.velocity},    {"torque", run.torque},
+            {"residual", run.residual}, {"spread", run.torque_spread}, {"samples", run.samples}};
         if (run.segment >= 0) one["segment"] = run.segment;
         out["runs"].push_back(one);
     }

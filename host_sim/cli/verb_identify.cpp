@@ -36,12 +36,10 @@ Motion motion_of(const Capture& capture) {
 Json to_json(const Identification& one, const Capture& capture) {
     const Motion motion = motion_of(capture);
     const auto unit = [&](Quantity q) { return unit_of(q, motion, capture.torque_in_ampere); };
-    return {{"inertia",
-             parameter(one.inertia.value, one.inertia.std, unit(Quantity::inertia))},
-            {"viscous",
-             parameter(one.viscous.value, one.viscous.std, unit(Quantity::viscous))},
-            {"constant_torque", parameter(one.constant_torque.value, one.constant_torque.std,
-                                          unit(Quantity::torque))},
+    return {{"inertia", parameter(one.inertia.value, one.inertia.std, unit(Quantity::inertia))},
+            {"viscous", parameter(one.viscous.value, one.viscous.std, unit(Quantity::viscous))},
+            {"constant_torque",
+             parameter(one.constant_torque.value, one.constant_torque.std, unit(Quantity::torque))},
             {"position_amplitude", one.position_amplitude},
             {"torque_amplitude", one.torque_amplitude},
             {"frequency_Hz", one.frequency_Hz},
@@ -82,7 +80,8 @@ void run_identify(const Options& o) {
     if (o.window.size() == 2) options.first_period = o.window[0], options.last_period = o.window[1];
     std::vector<Identification> all;
     for (const Capture& capture : captures)
-        for (const Identification& one : identify(capture, options)) all.push_back(one);
+        for (const Identification& one : identify(capture, options))
+            all.push_back(one);
     const Identification answer = combined(all);
     Json json = {{"schema", "servoid.identify/1"}};
     json.update(to_json(answer, captures.front()));
@@ -90,7 +89,8 @@ void run_identify(const Options& o) {
         for (const Identification& one : all)
             json["frequencies"].push_back(to_json(one, captures.front()));
     o.output.print_json(json);
-    for (const Identification& one : all) print(o.output, one, captures.front());
+    for (const Identification& one : all)
+        print(o.output, one, captures.front());
     if (all.size() > 1)
         o.output.line(fmt::format("all together     {:.5g} ± {:.2g} {}", answer.inertia.value,
                                   answer.inertia.std,

@@ -44,10 +44,10 @@ void add_simulate(CLI::App& app) {
     verb->add_option("--seed", o->seed, "of the noise");
     verb->add_option("--out", o->out, "capture file (.csv), - for stdout")->required();
     add_output_options(*verb, o->output);
-    add_examples(*verb,
-                 "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"
-                 "  servoid simulate system1.toml --experiment "
-                 "trapezoid:stroke=6.28,velocity=50,cycles=4,torque_noise=1e-3 --seed 7 --out b.csv");
+    add_examples(
+        *verb, "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"
+               "  servoid simulate system1.toml --experiment "
+               "trapezoid:stroke=6.28,velocity=50,cycles=4,torque_noise=1e-3 --seed 7 --out b.csv");
     verb->callback([o] { run_simulate(*o); });
 }
 

@@ -71,8 +71,7 @@ void print(const Output& out, const Sweep& s, const Model& model) {
 
 void run_sweep(Options o) {
     const Model model = read_model(o.model);
-    if (!(o.sweep.to_Hz >= o.sweep.from_Hz))
-        throw UsageError("--to must not be below --from");
+    if (!(o.sweep.to_Hz >= o.sweep.from_Hz)) throw UsageError("--to must not be below --from");
     o.sweep.session.method = o.method == "dft" ? SID_BIN_PLAIN_DFT : SID_BIN_CUBIC;
     const Sweep s = sweep(model, o.sweep);
     o.output.print_json(to_json(s, model));

@@ -61,7 +61,8 @@ double choose_band(const Capture& capture, Input input) {
     const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
     double band = std::clamp(2 * edge_of_power(t, capture.sample_time_s, kPowerShare), lowest,
                              kHighest / capture.sample_time_s);
-    while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare) band /= 1.2;
+    while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare)
+        band /= 1.2;
     // Two significant digits: a band is stated and repeated by people.
     const double unit = std::pow(10, std::floor(std::log10(band)) - 1);
     return std::max(unit, std::floor(band / unit) * unit);

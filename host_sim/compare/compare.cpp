@@ -57,13 +57,14 @@ std::optional<LoopError> loop_of_all(const Model& model,
 } // namespace
 
 Vector residual_torque(const Model& model, const PreparedMotion& motion) {
-    return motion.torque - model_torque(model, motion);
+    return delivered_torque(model, motion) - model_torque(model, motion);
 }
 
 std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
                                         const MotionOptions& options) {
     std::vector<PreparedMotion> out;
-    for (const Capture& capture : captures) out.push_back(prepare_motion(capture, options));
+    for (const Capture& capture : captures)
+        out.push_back(prepare_motion(capture, options));
     return out;
 }
 

@@ -22,7 +22,7 @@ struct Comparison {
     NoiseFloor floor;
     std::optional<LoopError> loop; // none without a controller or a position reference
     std::vector<Regime> where;
-    long samples = 0; // rows of the captures
+    long samples = 0;              // rows of the captures
     double samples_used_share = 0; // of the compared instants; the rest stands still
     double duration_s = 0;
     double band_Hz = 0; // the highest of the captures

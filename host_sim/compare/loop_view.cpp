@@ -35,7 +35,8 @@ std::optional<LoopError> loop_view(const Model& model, const Capture& capture) {
     const std::vector<double>& torque =
         capture.torque_ref.empty() ? capture.torque : capture.torque_ref;
     DriveOptions options;
-    for (double t : torque) options.full_torque = std::max(options.full_torque, std::abs(t) / 4);
+    for (double t : torque)
+        options.full_torque = std::max(options.full_torque, std::abs(t) / 4);
     SimulatedDrive drive(model, options);
     drive.set_state(capture.position.front(), first_velocity(capture));
     double torque_power = 0, torque_miss = 0, position_power = 0, position_miss = 0;

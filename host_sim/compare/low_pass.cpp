@@ -1,6 +1,8 @@
 #include "compare/low_pass.hpp"
 
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 
@@ -35,9 +37,14 @@ double window(double u, int derivative) {
 
 } // namespace
 
+struct LowPass::Cache {
+    std::mutex mutex;
+    std::map<std::pair<int, int>, Taps> taps;
+};
+
 LowPass::LowPass(double sample_time_s, double band_Hz)
     : sample_time_s_(sample_time_s), band_Hz_(band_Hz), half_length_s_(3.1 / band_Hz),
-      reach_(long(std::ceil(half_length_s_ / sample_time_s))) {
+      reach_(long(std::ceil(half_length_s_ / sample_time_s))), cache_(std::make_shared<Cache>()) {
     if (!(sample_time_s > 0) || !(band_Hz > 0))
         throw std::invalid_argument("low pass: sample time and band must be positive");
 }
@@ -76,23 +83,32 @@ LowPass::Taps LowPass::taps(double phase, int derivative) const {
     return Taps(taps.begin(), taps.end());
 }
 
+// References into a map stay valid while others are added.
+const LowPass::Taps& LowPass::cached_taps(int phase, int derivative) const {
+    const std::lock_guard lock(cache_->mutex);
+    auto found = cache_->taps.find({phase, derivative});
+    if (found == cache_->taps.end())
+        found =
+            cache_->taps
+                .emplace(std::pair{phase, derivative}, taps(double(phase) / kPhases, derivative))
+                .first;
+    return found->second;
+}
+
 Eigen::VectorXd LowPass::apply(const Eigen::VectorXd& x, const Grid& grid, int derivative,
                                double shift_s) const {
-    std::map<int, Taps> cache;
     Eigen::VectorXd out(grid.count);
     for (Eigen::Index k = 0; k < grid.count; ++k) {
         const double place = (grid.at(k) - shift_s) / sample_time_s_;
         const double whole = std::floor(place + 0.5 / kPhases);
         const int phase = int(std::lround((place - whole) * kPhases));
-        auto found = cache.find(phase);
-        if (found == cache.end())
-            found = cache.emplace(phase, taps(double(phase) / kPhases, derivative)).first;
+        const Taps& taps = cached_taps(phase, derivative);
         const long first = long(whole) - reach_;
         const long lost = std::max(0L, -first);
-        const long n = std::min(long(found->second.size()), long(x.size()) - first);
+        const long n = std::min(long(taps.size()), long(x.size()) - first);
         double sum = 0;
         if (n > lost)
-            sum = Eigen::Map<const Eigen::VectorXd>(found->second.data() + lost, n - lost)
+            sum = Eigen::Map<const Eigen::VectorXd>(taps.data() + lost, n - lost)
                       .dot(x.segment(first + lost, n - lost));
         out[k] = sum;
     }
@@ -101,7 +117,8 @@ Eigen::VectorXd LowPass::apply(const Eigen::VectorXd& x, const Grid& grid, int d
 
 double LowPass::noise_gain(int derivative) const {
     double sum = 0;
-    for (double tap : taps(0, derivative)) sum += tap * tap;
+    for (double tap : taps(0, derivative))
+        sum += tap * tap;
     return std::sqrt(sum);
 }
 

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <map>
+#include <memory>
 #include <vector>
 
 namespace servoid {
@@ -40,8 +40,12 @@ class LowPass {
     Taps taps(double phase, int derivative) const; // phase in samples, 0 ≤ phase < 1
     double kernel(double t_s, int derivative) const;
 
+    struct Cache; // taps by phase and derivative: they cost more than applying them
+    const Taps& cached_taps(int phase, int derivative) const;
+
     double sample_time_s_, band_Hz_, half_length_s_;
-    long reach_; // taps on each side
+    long reach_;                   // taps on each side
+    std::shared_ptr<Cache> cache_; // shared by copies, safe for threads
 };
 
 } // namespace servoid

@@ -13,9 +13,11 @@ namespace servoid {
 
 namespace {
 
-constexpr double kSmoothing = 3.0;   // band of the motion over the band of comparison
-constexpr double kOversampling = 4.0; // grid points per period of the band edge
-constexpr double kRestShare = 0.05;  // a point that sees more rest than this is not used
+constexpr double kSmoothing = 3.0;      // least band of the motion over the band of comparison
+constexpr double kWidest = 0.3;         // of the sample rate: the widest band of the motion
+constexpr double kVelocityNoise = 0.01; // of the rms velocity: what the widest band may let through
+constexpr double kOversampling = 4.0;   // grid points per period of the band edge
+constexpr double kRestShare = 0.05;     // a point that sees more rest than this is not used
 
 using Vector = Eigen::VectorXd;
 
@@ -32,7 +34,8 @@ Vector on_even_grid(const Capture& capture, const std::vector<double>& values) {
     size_t row = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
         const double t = start + double(i) * step;
-        while (row + 2 < capture.rows() && capture.time_s[row + 1] < t) ++row;
+        while (row + 2 < capture.rows() && capture.time_s[row + 1] < t)
+            ++row;
         const double share =
             (t - capture.time_s[row]) / (capture.time_s[row + 1] - capture.time_s[row]);
         out[i] = values[row] + share * (values[row + 1] - values[row]);
@@ -50,24 +53,43 @@ Grid motion_grid(Eigen::Index rows, double sample_time_s, double margin_s) {
     return {first, step, std::max<Eigen::Index>(0, Eigen::Index((last - first) / step) + 1)};
 }
 
-void differentiate(const Capture& capture, PreparedMotion& out, double smoothing_Hz) {
+// The direction of the motion must turn at the right instant, and a narrow band moves the turn: as
+// wide as the noise of the velocity allows.
+double smoothing_band(const Capture& capture, const Vector& source, double noise, double band_Hz) {
+    const int order = capture.has_position() ? 1 : 0;
     const double step = capture.sample_time_s;
-    const LowPass smooth(step, smoothing_Hz);
+    const Vector difference =
+        order ? Vector(source.tail(source.size() - 1) - source.head(source.size() - 1)) / step
+              : source;
+    const double rms = difference.norm() / std::sqrt(double(difference.size()));
+    double smoothing = std::max(kSmoothing * band_Hz, kWidest / step);
+    while (smoothing > kSmoothing * band_Hz &&
+           noise * LowPass(step, smoothing).noise_gain(order) > kVelocityNoise * rms)
+        smoothing /= 1.3;
+    return std::max(smoothing, kSmoothing * band_Hz);
+}
+
+void differentiate(const Capture& capture, PreparedMotion& out) {
+    const double step = capture.sample_time_s;
     const Vector source =
         on_even_grid(capture, capture.has_position() ? capture.position : capture.velocity);
-    const Grid grid = motion_grid(source.size(), step, smooth.half_length_s());
     const int order = capture.has_position() ? 0 : 1;
+    out.position_noise =
+        sample_noise(source, order == 0 ? capture.position_quantum : capture.velocity_quantum);
+    const LowPass smooth(step, smoothing_band(capture, source, out.position_noise, out.band_Hz));
+    const Grid grid = motion_grid(source.size(), step, smooth.half_length_s());
     MotionView& motion = out.motion;
     motion.sample_time_s = step;
-    motion.time_s = Vector::LinSpaced(grid.count, grid.start_s,
-                                      grid.start_s + step * double(grid.count - 1));
+    motion.band_Hz = out.band_Hz;
+    motion.position_quantum = capture.position_quantum;
+    motion.kind = capture.linear ? Motion::linear : Motion::rotary;
+    motion.time_s =
+        Vector::LinSpaced(grid.count, grid.start_s, grid.start_s + step * double(grid.count - 1));
     if (grid.count == 0) return;
     motion.velocity = smooth.apply(source, grid, 1 - order);
     motion.acceleration = smooth.apply(source, grid, 2 - order);
     motion.position = order == 0 ? smooth.apply(source, grid, 0) : Vector();
     out.motion_start_s = grid.start_s;
-    out.position_noise = sample_noise(source, order == 0 ? capture.position_quantum
-                                                         : capture.velocity_quantum);
     motion.velocity_noise = out.position_noise * smooth.noise_gain(1 - order);
 }
 
@@ -87,33 +109,38 @@ Grid comparison_grid(const PreparedMotion& prepared, double band_Hz) {
 // Where the axis is at rest, friction holds whatever it has to: such points say nothing of a law.
 std::vector<bool> moving(const PreparedMotion& prepared) {
     const MotionView& motion = prepared.motion;
-    const double threshold = std::max(4 * motion.velocity_noise,
-                                      1e-4 * motion.velocity.cwiseAbs().maxCoeff());
+    const double threshold =
+        std::max(4 * motion.velocity_noise, 1e-4 * motion.velocity.cwiseAbs().maxCoeff());
     Vector rest(motion.size());
     // A crossing of zero is no rest: only a stretch that lasts is.
     const auto shortest = Eigen::Index(0.25 / prepared.band_Hz / motion.sample_time_s) + 2;
     for (Eigen::Index i = 0; i < motion.size();) {
         Eigen::Index end = i;
-        while (end < motion.size() && std::abs(motion.velocity[end]) < threshold) ++end;
+        while (end < motion.size() && std::abs(motion.velocity[end]) < threshold)
+            ++end;
         const bool rests = end - i >= shortest;
-        for (; i < end; ++i) rest[i] = rests ? 1 : 0;
+        for (; i < end; ++i)
+            rest[i] = rests ? 1 : 0;
         if (i < motion.size()) rest[i++] = 0;
     }
     const Vector share = prepared.band_limit(rest);
     std::vector<bool> used(size_t(share.size()));
-    for (Eigen::Index k = 0; k < share.size(); ++k) used[size_t(k)] = share[k] < kRestShare;
+    for (Eigen::Index k = 0; k < share.size(); ++k)
+        used[size_t(k)] = share[k] < kRestShare;
     return used;
 }
 
 void refuse_if_short(const PreparedMotion& prepared) {
     if (prepared.motion.size() > 0 && prepared.grid.count >= 16) return;
-    throw Refusal(prepared.capture->path + fmt::format(": the capture is too short for a band of {:.3g} Hz", prepared.band_Hz),
-                  "at least 0.5 s of motion, or ask for a higher --band");
+    throw Refusal(
+        prepared.capture->path +
+            fmt::format(": the capture is too short for a band of {:.3g} Hz", prepared.band_Hz),
+        "at least 0.5 s of motion, or ask for a higher --band");
 }
 
 void refuse_if_still(const PreparedMotion& prepared) {
     const double top = prepared.motion.velocity.cwiseAbs().maxCoeff();
-    const auto used = std::count(prepared.used.begin(), prepared.used.end(), true);
+    const auto used = prepared.used_count();
     if (top > 5 * prepared.motion.velocity_noise && used >= 16) return;
     throw Refusal(prepared.capture->path + ": the axis does not move",
                   "a periodic move in both directions, well above the encoder's resolution");
@@ -143,6 +170,15 @@ Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const
     return out;
 }
 
+Eigen::VectorXd PreparedMotion::band_limit(const TorqueSignal& signal) const {
+    const double hold_s = signal.held ? signal.sample_time_s / 2 : 0;
+    return low_pass->apply(signal.samples, grid, 0, signal.delay_s + hold_s);
+}
+
+Eigen::Index PreparedMotion::used_count() const {
+    return std::count(used.begin(), used.end(), true);
+}
+
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options) {
     PreparedMotion out;
     out.capture = &capture;
@@ -151,7 +187,7 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     if (out.band_Hz > top)
         throw UsageError(fmt::format("--band: {:.4g} Hz is above what {} can show, {:.4g} Hz",
                                      out.band_Hz, capture.path, top));
-    differentiate(capture, out, kSmoothing * out.band_Hz);
+    differentiate(capture, out);
     out.low_pass.emplace(capture.sample_time_s, out.band_Hz);
     out.period_s = find_period(capture);
     if (out.motion.size() > 0) out.grid = comparison_grid(out, out.band_Hz);
@@ -160,9 +196,9 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     const TorqueChoice choice = choose_torque(capture, options.input);
     out.input = choice.input;
     out.torque_name = choice.name;
-    const Vector torque = on_even_grid(capture, *choice.values);
-    const double shift = capture.torque_delay_s + (choice.held ? capture.sample_time_s / 2 : 0);
-    out.torque = out.low_pass->apply(torque, out.grid, 0, shift);
+    out.asked = {on_even_grid(capture, *choice.values), capture.sample_time_s, choice.held,
+                 capture.torque_delay_s};
+    out.torque = out.band_limit(out.asked);
     if (capture.has_position()) out.position = out.band_limit(out.motion.position);
     out.velocity = out.band_limit(out.motion.velocity);
     out.acceleration = out.band_limit(out.motion.acceleration);
@@ -170,8 +206,7 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     const int order = capture.has_position() ? 0 : 1;
     out.velocity_noise = out.position_noise * out.low_pass->noise_gain(1 - order);
     out.acceleration_noise = out.position_noise * out.low_pass->noise_gain(2 - order);
-    out.torque_noise =
-        capture.torque_quantum / std::sqrt(12.0) * out.low_pass->noise_gain(0);
+    out.torque_noise = capture.torque_quantum / std::sqrt(12.0) * out.low_pass->noise_gain(0);
     refuse_if_still(out);
     return out;
 }

@@ -20,24 +20,29 @@ struct MotionOptions {
 // Times are seconds after the capture's first row.
 struct PreparedMotion {
     const Capture* capture = nullptr;
-    MotionView motion;     // at the sample rate, smoothed at 3 × the band
+    MotionView motion; // at the sample rate, smoothed at 3 × the band
     double motion_start_s = 0;
-    std::optional<LowPass> low_pass; // of the motion's rate, at the band
-    Grid grid;             // where torque and columns are compared
-    Eigen::VectorXd torque; // N·m or N on the grid
+    std::optional<LowPass> low_pass;                  // of the motion's rate, at the band
+    Grid grid;                                        // where torque and columns are compared
+    Eigen::VectorXd torque;                           // N·m or N on the grid
     Eigen::VectorXd position, velocity, acceleration; // on the grid
     std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
     double band_Hz = 0;
     std::optional<double> period_s; // stated or found
-    double position_noise = 0;     // standard deviation per sample, rad or m
-    double acceleration_noise = 0; // of the band-limited acceleration
-    double velocity_noise = 0;     // of the band-limited velocity
-    double torque_noise = 0;       // of the band-limited torque, from its quantisation
+    double position_noise = 0;      // standard deviation per sample, rad or m
+    double acceleration_noise = 0;  // of the band-limited acceleration
+    double velocity_noise = 0;      // of the band-limited velocity
+    double torque_noise = 0;        // of the band-limited torque, from its quantisation
     Input input = Input::reference; // which one was used
     std::string torque_name;        // "torque_ref", "torque"
 
+    TorqueSignal asked; // as recorded, for effects between asked and delivered torque
+
     // Any signal at the sample rate (rows: motion.size()) through the band limit, on the grid.
     Eigen::MatrixXd band_limit(const Eigen::MatrixXd& columns) const;
+    // A torque through the band limit, on the grid: a held one acts half a sample later.
+    Eigen::VectorXd band_limit(const TorqueSignal& signal) const;
+    Eigen::Index used_count() const;
 };
 
 // The motion and torque of one capture. Throws Refusal where there is too little of either.

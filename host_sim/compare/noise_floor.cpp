@@ -15,7 +15,8 @@ Eigen::MatrixXd by_period(const PreparedMotion& m, const Vector& residual, Eigen
     Eigen::MatrixXd out(periods, points);
     for (Eigen::Index j = 0; j < points; ++j) {
         bool all = true;
-        for (Eigen::Index p = 0; p < periods; ++p) all &= m.used[size_t(p * points + j)];
+        for (Eigen::Index p = 0; p < periods; ++p)
+            all &= m.used[size_t(p * points + j)];
         for (Eigen::Index p = 0; p < periods; ++p)
             out(p, j) = all ? residual[p * points + j] : 0.0;
     }

@@ -6,10 +6,10 @@
 namespace servoid {
 
 struct NoiseFloor {
-    double ratio = 0;               // of ‖T‖, like torque_error
-    bool from_repetition = false;   // else from the quantisation of the sensors
-    double repeatable_share = NAN;  // of the residual's power; NaN where nothing repeats
-    int periods = 0;                // whole periods that were used
+    double ratio = 0;              // of ‖T‖, like torque_error
+    bool from_repetition = false;  // else from the quantisation of the sensors
+    double repeatable_share = NAN; // of the residual's power; NaN where nothing repeats
+    int periods = 0;               // whole periods that were used
 };
 
 // residual: T − T̂ on the grid. With whole periods: the power of what differs between them, with

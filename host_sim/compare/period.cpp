@@ -18,18 +18,22 @@ using Vector = Eigen::VectorXd;
 std::vector<double> mismatch(const Vector& x) {
     const auto n = static_cast<size_t>(x.size());
     size_t length = 1;
-    while (length < 2 * n) length *= 2;
+    while (length < 2 * n)
+        length *= 2;
     std::vector<double> padded(length, 0.0);
-    for (size_t i = 0; i < n; ++i) padded[i] = x[Eigen::Index(i)];
+    for (size_t i = 0; i < n; ++i)
+        padded[i] = x[Eigen::Index(i)];
     std::vector<std::complex<double>> lines;
     Eigen::FFT<double> fft;
     fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
     fft.fwd(lines, padded);
-    for (auto& line : lines) line = std::norm(line);
+    for (auto& line : lines)
+        line = std::norm(line);
     std::vector<double> correlation;
     fft.inv(correlation, lines, Eigen::Index(length));
     std::vector<double> head(n + 1, 0.0); // head[i]: energy of the first i samples
-    for (size_t i = 0; i < n; ++i) head[i + 1] = head[i] + padded[i] * padded[i];
+    for (size_t i = 0; i < n; ++i)
+        head[i + 1] = head[i] + padded[i] * padded[i];
     std::vector<double> out(n / 2 + 1, 1.0);
     for (size_t lag = 1; lag < out.size(); ++lag) {
         const double both = head[n - lag] + (head[n] - head[lag]);
@@ -48,7 +52,8 @@ Vector without_mean(const std::vector<double>& values) {
 // The first deep minimum after the correlation has once been lost, refined between samples.
 double first_return(const std::vector<double>& miss, double deep) {
     size_t lag = 1;
-    while (lag < miss.size() && miss[lag] < 0.3) ++lag;
+    while (lag < miss.size() && miss[lag] < 0.3)
+        ++lag;
     for (; lag + 1 < miss.size(); ++lag) {
         if (miss[lag] > deep || miss[lag] > miss[lag - 1] || miss[lag] > miss[lag + 1]) continue;
         const double a = miss[lag - 1], b = miss[lag], c = miss[lag + 1];
@@ -66,7 +71,7 @@ std::optional<double> find_period(const Capture& capture) {
         return *capture.period_s <= length_s / 2 ? capture.period_s : std::nullopt;
     if (!capture.uniform || capture.rows() < 64) return std::nullopt;
     const bool has_reference = !capture.position_ref.empty();
-    const std::vector<double>& signal = has_reference         ? capture.position_ref
+    const std::vector<double>& signal = has_reference            ? capture.position_ref
                                         : capture.has_position() ? capture.position
                                                                  : capture.velocity;
     const Vector x = without_mean(signal);

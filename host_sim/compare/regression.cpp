@@ -1,6 +1,7 @@
 #include "compare/regression.hpp"
 
 #include "common/error.hpp"
+#include "compare/linear_fit.hpp"
 #include "effects/catalogue.hpp"
 
 #include <Eigen/Dense>
@@ -15,100 +16,241 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kBlocksPerCapture = 24;
-constexpr double kWorstCondition = 1e6;
+// A shape parameter that the fit may move.
+struct Shape {
+    size_t term;
+    std::string key;
+    double lower, upper;
+};
 
-const Effect& effect_of(const EffectTerm& term) {
-    const Effect* effect = find_effect(term.name);
-    if (!effect) throw Error(ExitCode::defect, "no such effect: " + term.name);
-    return *effect;
-}
-
-std::vector<Coefficient> coefficients_of(const Model& model) {
-    std::vector<Coefficient> out = {{-1, 0, model.inertia_fixed, 0}};
-    for (size_t i = 0; i < model.effects.size(); ++i) {
-        const Effect& effect = effect_of(model.effects[i]);
-        for (int k = 0; k < effect.linear_count(); ++k) {
-            const ParameterInfo& parameter = effect.info().parameters[size_t(k)];
-            out.push_back({int(i), k, model.effects[i].is_fixed(parameter.key), parameter.lower});
+std::vector<Shape> shapes_of(const Model& model, size_t first = 0) {
+    std::vector<Shape> out;
+    for (size_t i = first; i < model.effects.size(); ++i) {
+        const EffectTerm& term = model.effects[i];
+        const Effect& effect = *find_effect(term.name);
+        for (const std::string& key : effect.shape_keys()) {
+            if (term.is_fixed(key)) continue;
+            for (const ParameterInfo& p : effect.info().parameters)
+                if (p.key == key) out.push_back({i, key, p.lower, p.upper});
         }
     }
     return out;
 }
 
-// Columns at the sample rate, in the order of coefficients_of.
-Matrix raw_columns(const Model& model, const MotionView& motion) {
-    Vector inertia = motion.acceleration;
-    for (const EffectTerm& term : model.effects)
-        effect_of(term).shape_inertia(term, motion, inertia);
-    Matrix out = inertia;
-    for (const EffectTerm& term : model.effects) {
-        const Matrix more = effect_of(term).columns(term, motion);
-        out.conservativeResize(Eigen::NoChange, out.cols() + more.cols());
-        out.rightCols(more.cols()) = more;
+// One evaluation: the model's shapes as they are, the coefficients solved for.
+struct State {
+    Model model;
+    Assembly assembly;
+    LinearFit linear;
+    Vector residual;
+    double error = 0; // ‖r‖/‖T‖
+};
+
+State evaluate(const Model& model, Assembler& assembler) {
+    State s{model, assembler.assemble(model), {}, {}, 0};
+    std::vector<bool> fixed;
+    std::vector<double> lower;
+    for (size_t i = 0; i < s.assembly.coefficients.size(); ++i) {
+        const Coefficient& c = s.assembly.coefficients[i];
+        const bool vanishes = c.may_vanish && !(s.assembly.columns.col(Eigen::Index(i)).norm() > 0);
+        fixed.push_back(c.fixed || vanishes), lower.push_back(c.lower);
+    }
+    s.linear =
+        solve({s.assembly.columns, s.assembly.torque, coefficient_values(model), fixed, lower});
+    s.residual = s.assembly.torque - s.assembly.columns * s.linear.values;
+    s.error = s.residual.norm() / std::max(1e-300, s.assembly.torque.norm());
+    if (s.linear.solved)
+        set_coefficient_values(s.model, s.linear.values);
+    else
+        s.error = INFINITY;
+    return s;
+}
+
+double step_of(const Shape& shape, double value) {
+    const double step = 1e-4 * std::max(std::abs(value), 1e-12);
+    return value + step <= shape.upper ? step : -step;
+}
+
+// How the residual moves with each shape, the coefficients held.
+Matrix shape_slopes(const State& s, const std::vector<Shape>& shapes, Assembler& assembler) {
+    Matrix out(s.residual.size(), Eigen::Index(shapes.size()));
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        Model moved = s.model;
+        double& value = moved.effects[shapes[i].term].parameters[shapes[i].key];
+        const double step = step_of(shapes[i], value);
+        value += step;
+        const Assembly a = assembler.assemble(moved);
+        // The coefficients of the moved term may be defined by its shapes: taken from the model.
+        out.col(Eigen::Index(i)) =
+            (a.torque - a.columns * coefficient_values(moved) - s.residual) / step;
     }
     return out;
 }
 
-Vector values_of(const Model& model) {
-    std::vector<double> values = {model.inertia};
-    for (const EffectTerm& term : model.effects) {
-        const Vector linear = effect_of(term).linear(term);
-        values.insert(values.end(), linear.begin(), linear.end());
+Model moved_by(const State& s, const std::vector<Shape>& shapes, const Vector& by) {
+    Model out = s.model;
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        double& value = out.effects[shapes[i].term].parameters[shapes[i].key];
+        // No step takes a shape further than to three times or a third of what it was.
+        const double was = value;
+        value = std::clamp(value + by[Eigen::Index(i)], shapes[i].lower, shapes[i].upper);
+        if (was > 0 && shapes[i].lower >= 0) value = std::clamp(value, was / 3, was * 3);
     }
-    return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
-}
-
-void set_values(Model& model, const Vector& values) {
-    model.inertia = values[0];
-    Eigen::Index next = 1;
-    for (EffectTerm& term : model.effects) {
-        const Effect& effect = effect_of(term);
-        effect.set_linear(term, values.segment(next, effect.linear_count()));
-        next += effect.linear_count();
-    }
-}
-
-Matrix pick(const Matrix& columns, const std::vector<int>& which) {
-    Matrix out(columns.rows(), Eigen::Index(which.size()));
-    for (size_t i = 0; i < which.size(); ++i) out.col(Eigen::Index(i)) = columns.col(which[i]);
     return out;
 }
 
-// (XᵀX)⁻¹ (Σ over blocks of g gᵀ) (XᵀX)⁻¹, g = Xᵀr of the block.
-Matrix block_covariance(const Matrix& x, const Vector& residual, const std::vector<int>& block) {
-    const int blocks = block.empty() ? 0 : block.back() + 1;
-    Matrix scores = Matrix::Zero(blocks, x.cols());
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-        scores.row(block[size_t(i)]) += residual[i] * x.row(i);
-    const Matrix inverse = (x.transpose() * x).ldlt().solve(Matrix::Identity(x.cols(), x.cols()));
-    const double spread = double(blocks) / std::max(1.0, double(blocks) - double(x.cols()));
-    return inverse * (scores.transpose() * scores) * inverse * spread;
+// Levenberg-Marquardt over the shapes on the projected residual (Kaufman's simplification). Returns
+// whether it came to rest.
+bool descend(State& s, Assembler& assembler, const FitOptions& options) {
+    const std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
+    if (shapes.empty()) return true;
+    double damping = 1e-3;
+    for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
+        const Matrix x = pick(s.assembly.columns, s.linear.free);
+        Matrix slopes = shape_slopes(s, shapes, assembler);
+        if (x.cols() > 0) slopes -= x * (x.transpose() * x).ldlt().solve(x.transpose() * slopes);
+        const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+        slopes = slopes * scale.asDiagonal();
+        const Matrix normal = slopes.transpose() * slopes;
+        const Vector gradient = slopes.transpose() * s.residual;
+        bool better = false;
+        const double before = s.error;
+        for (int attempt = 0; attempt < 5 && !better; ++attempt) {
+            Matrix damped = normal;
+            damped.diagonal().array() += damping;
+            const Vector by = -(scale.asDiagonal() * damped.ldlt().solve(gradient));
+            State next = evaluate(moved_by(s, shapes, by), assembler);
+            better = next.error < s.error;
+            if (better)
+                s = std::move(next), damping = std::max(1e-9, damping / 8);
+            else
+                damping *= 10;
+        }
+        if (!better || before - s.error < 1e-6 * before) return true;
+    }
+    return false;
 }
 
-double condition_of(const Matrix& x) {
-    if (x.cols() < 2) return 1;
-    const Matrix scaled = x * x.colwise().norm().cwiseInverse().asDiagonal();
-    const Vector singular = Eigen::BDCSVD<Matrix>(scaled).singularValues();
-    const double least = singular[singular.size() - 1];
-    return least > 0 ? singular[0] / least : INFINITY;
-}
-
-void refuse_if_alike(const Regression& regression, const Model& model,
-                     const std::vector<int>& free) {
-    const Matrix x = pick(regression.columns, free);
-    for (Eigen::Index i = 0; i < x.cols(); ++i)
-        if (!(x.col(i).norm() > 0))
-            throw Refusal("nothing in the capture shows " +
-                              coefficient_name(model, regression.coefficients[size_t(free[size_t(i)])]),
-                          "a move that excites it: both directions, several speeds");
-    if (condition_of(x) <= kWorstCondition) return;
+void refuse_if_alike(const State& s) {
+    if (s.linear.solved) return;
     std::string names;
-    for (int i : free)
-        names += (names.empty() ? "" : ", ") +
-                 coefficient_name(model, regression.coefficients[size_t(i)]);
+    for (int i : s.linear.free) {
+        const std::string name = coefficient_name(s.model, s.assembly.coefficients[size_t(i)]);
+        if (!(s.assembly.columns.col(i).norm() > 0))
+            throw Refusal("nothing in the capture shows " + name,
+                          "a move that excites it: both directions, several speeds");
+        names += (names.empty() ? "" : ", ") + name;
+    }
     throw Refusal("the capture cannot tell these apart: " + names,
                   "a move in both directions with several speeds and accelerations");
+}
+
+// All numbers that were fitted, as one vector: free coefficients, then shapes.
+struct Joint {
+    Matrix slopes; // of the residual's negative: columns and shapes
+    std::vector<int> free;
+    std::vector<Shape> shapes;
+};
+
+std::string term_name(const Model& model, size_t term) {
+    int number = 1;
+    for (size_t i = 0; i < term; ++i)
+        number += model.effects[i].name == model.effects[term].name;
+    const std::string& name = model.effects[term].name;
+    return number == 1 ? name : name + "#" + std::to_string(number);
+}
+
+// The parameters of a term against the joint vector, by differences: amplitude and phase from two
+// coefficients, for instance.
+std::vector<double> term_variance(const State& s, size_t term, const Joint& joint,
+                                  const Matrix& covariance) {
+    const EffectTerm& base = s.model.effects[term];
+    const Effect& effect = *find_effect(base.name);
+    const auto n = Eigen::Index(joint.free.size() + joint.shapes.size());
+    Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), n);
+    const auto put = [&](Eigen::Index at, const EffectTerm& moved, double step) {
+        Eigen::Index row = 0;
+        for (const auto& [key, value] : base.parameters)
+            slopes(row++, at) = (moved.at(key) - value) / step;
+    };
+    const Vector linear = effect.linear(base);
+    for (size_t i = 0; i < joint.free.size(); ++i) {
+        const Coefficient& c = s.assembly.coefficients[size_t(joint.free[i])];
+        if (c.term != int(term)) continue;
+        Vector moved = linear;
+        const double step = 1e-6 * std::max(linear.cwiseAbs().maxCoeff(), 1e-12);
+        moved[c.index] += step;
+        EffectTerm other = base;
+        effect.set_linear(other, moved);
+        put(Eigen::Index(i), other, step);
+    }
+    for (size_t i = 0; i < joint.shapes.size(); ++i) {
+        if (joint.shapes[i].term != term) continue;
+        EffectTerm other = base;
+        const double step = step_of(joint.shapes[i], base.at(joint.shapes[i].key));
+        other.parameters[joint.shapes[i].key] += step;
+        put(Eigen::Index(joint.free.size() + i), other, step);
+    }
+    const Matrix out = slopes * covariance * slopes.transpose();
+    std::vector<double> variance;
+    for (Eigen::Index i = 0; i < out.rows(); ++i)
+        variance.push_back(std::max(0.0, out(i, i)));
+    return variance;
+}
+
+bool on_bound(const FitResult& out, int term, int index) {
+    for (size_t i = 0; i < out.coefficients.size(); ++i) {
+        const Coefficient& c = out.coefficients[i];
+        if (c.term == term && (index < 0 || c.index == index) && !c.fixed &&
+            out.values[Eigen::Index(i)] <= c.lower)
+            return true;
+    }
+    return false;
+}
+
+void list_parameters(FitResult& out, const State& s, const Joint& joint, const Matrix& cov) {
+    FittedParameter inertia{
+        "inertia", Quantity::inertia, {out.values[0], out.std[0]}, out.model.inertia_fixed, false};
+    out.parameters.push_back(inertia);
+    for (size_t t = 0; t < out.model.effects.size(); ++t) {
+        const EffectTerm& term = out.model.effects[t];
+        const Effect& effect = *find_effect(term.name);
+        std::vector<double> variance(term.parameters.size(), 0.0);
+        if (cov.size()) variance = term_variance(s, t, joint, cov);
+        int index = 0;
+        for (const ParameterInfo& p : effect.info().parameters) {
+            const auto place = std::distance(term.parameters.begin(), term.parameters.find(p.key));
+            FittedParameter one{term_name(out.model, t) + "." + p.key,
+                                p.quantity,
+                                {term.at(p.key), std::sqrt(variance[size_t(place)])},
+                                term.is_fixed(p.key),
+                                index < effect.linear_count() && on_bound(out, int(t), index)};
+            if (one.at_bound) out.at_bound.push_back(one.name);
+            out.parameters.push_back(one);
+            ++index;
+        }
+    }
+}
+
+void add_uncertainty(FitResult& out, const State& s, Assembler& assembler, bool wanted) {
+    Joint joint{{}, s.linear.free, shapes_of(s.model)};
+    out.std = Vector::Zero(out.values.size());
+    out.covariance = Matrix::Zero(out.values.size(), out.values.size());
+    Matrix cov;
+    if (wanted) {
+        const Matrix x = pick(s.assembly.columns, joint.free);
+        joint.slopes.resize(x.rows(), x.cols() + Eigen::Index(joint.shapes.size()));
+        joint.slopes << x, -shape_slopes(s, joint.shapes, assembler);
+        cov = block_covariance(joint.slopes, s.residual, s.assembly.block);
+        for (size_t i = 0; i < joint.free.size(); ++i) {
+            out.std[joint.free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
+            for (size_t j = 0; j < joint.free.size(); ++j)
+                out.covariance(joint.free[i], joint.free[j]) =
+                    cov(Eigen::Index(i), Eigen::Index(j));
+        }
+        out.condition = condition_of(x);
+    }
+    list_parameters(out, s, joint, cov);
 }
 
 } // namespace
@@ -116,88 +258,63 @@ void refuse_if_alike(const Regression& regression, const Model& model,
 std::string coefficient_name(const Model& model, const Coefficient& coefficient) {
     if (coefficient.term < 0) return "inertia";
     const EffectTerm& term = model.effects[size_t(coefficient.term)];
-    return term.name + "." + effect_of(term).info().parameters[size_t(coefficient.index)].key;
+    return term_name(model, size_t(coefficient.term)) + "." +
+           find_effect(term.name)->info().parameters[size_t(coefficient.index)].key;
 }
 
-Regression make_regression(const Model& model, const std::vector<PreparedMotion>& motions) {
-    Regression out;
-    out.coefficients = coefficients_of(model);
-    Eigen::Index rows = 0;
-    for (const PreparedMotion& m : motions)
-        rows += std::count(m.used.begin(), m.used.end(), true);
-    out.columns.resize(rows, Eigen::Index(out.coefficients.size()));
-    out.torque.resize(rows);
-    out.block.resize(size_t(rows));
-    Eigen::Index row = 0;
-    int first_block = 0;
-    for (const PreparedMotion& m : motions) {
-        const Matrix columns = m.band_limit(raw_columns(model, m.motion));
-        for (Eigen::Index k = 0; k < m.grid.count; ++k) {
-            if (!m.used[size_t(k)]) continue;
-            out.columns.row(row) = columns.row(k);
-            out.torque[row] = m.torque[k];
-            out.block[size_t(row)] = first_block + int(k * kBlocksPerCapture / m.grid.count);
-            ++row;
-        }
-        first_block += kBlocksPerCapture;
-    }
+Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
+    const State s = evaluate(fitted.model, assembler);
+    const Matrix x = pick(s.assembly.columns, s.linear.free);
+    const std::vector<Shape> shapes = shapes_of(s.model);
+    Matrix out(x.rows(), x.cols() + Eigen::Index(shapes.size()));
+    out << x, -shape_slopes(s, shapes, assembler);
     return out;
 }
 
-Vector model_torque(const Model& model, const PreparedMotion& motion) {
-    return motion.band_limit(raw_columns(model, motion.motion) * values_of(model));
+double linear_error(const Model& model, Assembler& assembler) {
+    return evaluate(model, assembler).error;
+}
+
+FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options) {
+    assembler.set_context(model);
+    State s = evaluate(model, assembler);
+    refuse_if_alike(s);
+    bool converged = descend(s, assembler, options);
+    // Laws that change others (a drift of friction) saw the model as it was given: once more.
+    assembler.set_context(s.model);
+    s = evaluate(s.model, assembler);
+    refuse_if_alike(s);
+    converged = descend(s, assembler, options) && converged;
+    if (!(s.linear.values[0] > 0))
+        throw Refusal("the inertia does not come out positive: torque and motion do not belong "
+                      "together (torque looks reversed, or a wrong column or unit)",
+                      "torque that is positive where it speeds the axis up");
+    FitResult out;
+    out.model = s.model;
+    out.coefficients = s.assembly.coefficients;
+    out.values = s.linear.values;
+    out.torque_error = s.error;
+    out.converged = converged;
+    out.residual = s.residual, out.torque = s.assembly.torque;
+    out.free_parameters = int(s.linear.free.size() + shapes_of(s.model).size());
+    add_uncertainty(out, s, assembler, options.uncertainty);
+    return out;
 }
 
 FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions) {
-    const Regression regression = make_regression(model, motions);
-    FitResult out;
-    out.model = model;
-    out.values = values_of(model);
-    out.coefficients = regression.coefficients;
-    out.std = Vector::Zero(out.values.size());
-    out.covariance = Matrix::Zero(out.values.size(), out.values.size());
-    std::vector<int> free;
-    for (size_t i = 0; i < out.coefficients.size(); ++i)
-        if (!out.coefficients[i].fixed) free.push_back(int(i));
-    // Active set: a coefficient that leaves its bound is put on it and the rest is fitted again.
-    while (!free.empty()) {
-        refuse_if_alike(regression, model, free);
-        Vector given = out.values;
-        for (int i : free) given[i] = 0;
-        const Matrix x = pick(regression.columns, free);
-        const Vector target = regression.torque - regression.columns * given;
-        const Vector solved = x.colPivHouseholderQr().solve(target);
-        int worst = -1;
-        double worst_by = 0;
-        for (size_t i = 0; i < free.size(); ++i) {
-            const double lower = out.coefficients[size_t(free[i])].lower;
-            const double by = (lower - solved[Eigen::Index(i)]) * x.col(Eigen::Index(i)).norm();
-            if (by > worst_by) worst_by = by, worst = int(i);
-        }
-        if (worst < 0) {
-            const Matrix cov = block_covariance(x, target - x * solved, regression.block);
-            for (size_t i = 0; i < free.size(); ++i) {
-                out.values[free[i]] = solved[Eigen::Index(i)];
-                out.std[free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
-                for (size_t j = 0; j < free.size(); ++j)
-                    out.covariance(free[i], free[j]) = cov(Eigen::Index(i), Eigen::Index(j));
-            }
-            out.condition = condition_of(x);
-            break;
-        }
-        const int at = free[size_t(worst)];
-        out.values[at] = out.coefficients[size_t(at)].lower;
-        out.at_bound.push_back(coefficient_name(model, out.coefficients[size_t(at)]));
-        free.erase(free.begin() + worst);
-    }
-    if (!(out.values[0] > 0))
-        throw Refusal("the inertia does not come out positive: torque and motion do not belong "
-                      "together (a reversed sign, a wrong column or unit)",
-                      "torque that is positive where it speeds the axis up");
-    set_values(out.model, out.values);
-    out.torque_error = (regression.torque - regression.columns * out.values).norm() /
-                       regression.torque.norm();
-    return out;
+    Assembler assembler(motions);
+    return fit(model, assembler);
+}
+
+Vector model_torque(const Model& model, const PreparedMotion& motion) {
+    return motion.band_limit(Matrix(in_context(model, motion.motion).torque));
+}
+
+Vector delivered_torque(const Model& model, const PreparedMotion& motion) {
+    TorqueSignal signal = motion.asked;
+    for (const EffectTerm& term : model.effects)
+        find_effect(term.name)->deliver(term, signal);
+    return motion.band_limit(signal);
 }
 
 } // namespace servoid

@@ -1,52 +1,68 @@
-// The torque view: the torque that a model needs for the measured motion, as columns times
-// parameters, and their least-squares fit.
+// The fit of a model in the torque view.
+//
+// T_delivered(q) = columns(q)·c + residual: linear in the coefficients c (inertia, friction, ...),
+// not in the shape parameters q (an order, a delay, a gap). For each q the best c is known
+// (variable projection, Golub and Pereyra 1973), so only q is searched, by damped Gauss-Newton
+// steps.
 #pragma once
 
-#include "compare/motion.hpp"
-#include "model/model.hpp"
+#include "compare/assembly.hpp"
 
 #include <string>
 #include <vector>
 
 namespace servoid {
 
-// One coefficient of the regression: the inertia (term −1) or a linear coefficient of an effect.
-struct Coefficient {
-    int term = -1;
-    int index = 0;
+// One parameter of a fitted model under its full name: "inertia", "viscous.coefficient"; the second
+// cogging of a model is "cogging#2.amplitude".
+struct FittedParameter {
+    std::string name;
+    Quantity quantity = Quantity::ratio;
+    Estimate estimate;
     bool fixed = false;
-    double lower = 0;
+    bool at_bound = false; // physics stopped it: something else is missing, or it is not there
 };
-
-// What a model needs for one or several captures; rows are the used points of all of them.
-struct Regression {
-    Eigen::MatrixXd columns; // rows × coefficients
-    Eigen::VectorXd torque;  // rows
-    std::vector<Coefficient> coefficients;
-    std::vector<int> block; // rows: points that belong together, for errors that are correlated
-};
-
-Regression make_regression(const Model& model, const std::vector<PreparedMotion>& motions);
-
-// The model's own torque on every point of the grid of one capture (used or not).
-Eigen::VectorXd model_torque(const Model& model, const PreparedMotion& motion);
 
 struct FitResult {
-    Model model;                       // with the fitted values
-    Eigen::VectorXd values, std;       // of all coefficients, in the order of the regression
-    Eigen::MatrixXd covariance;
-    std::vector<Coefficient> coefficients;
-    std::vector<std::string> at_bound; // names of parameters that physics stopped
-    double condition = 0;              // of the scaled free columns
-    double torque_error = 0;           // ‖T − T̂‖/‖T‖
+    Model model; // with the fitted values
+    std::vector<FittedParameter> parameters;
+    std::vector<Coefficient> coefficients; // the linear part, in the order of the columns
+    Eigen::VectorXd values, std;           // of the coefficients
+    Eigen::MatrixXd covariance;            // of the coefficients
+    std::vector<std::string> at_bound;     // names of parameters on a bound
+    double condition = 0;                  // of the scaled free columns
+    double torque_error = 0;               // ‖T − T̂‖/‖T‖
+    bool converged = false;                // false: the bound on iterations was met
+    Eigen::VectorXd residual, torque;      // on the used points
+    int free_parameters = 0;
 };
 
-// Least squares of all coefficients that are not fixed, with dissipation kept ≥ 0. The standard
-// deviations are block-robust (scores summed over blocks of the record), so they hold for residuals
-// that are correlated in time. Throws Refusal where the columns cannot be told apart.
-FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions);
+struct FitOptions {
+    int most_iterations = 12; // of the shape parameters
+    bool uncertainty = true;  // else the std are left at 0
+    size_t frozen_terms = 0;  // effects at the front of the model whose shapes stay as they are
+};
 
-// "inertia", "viscous.coefficient".
+// Least squares of everything that is not fixed, with dissipation kept ≥ 0. Standard deviations are
+// block-robust (scores summed over blocks of the record), so they hold for residuals that are
+// correlated in time. Throws Refusal where the parameters cannot be told apart.
+FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions);
+FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options = {});
+
+// How the model's torque moves with everything that was fitted, to first order: the free columns,
+// then one column per shape parameter (rows: used points).
+Eigen::MatrixXd joint_slopes(const FitResult& fitted, Assembler& assembler);
+
+// ‖T − T̂‖/‖T‖ with the shapes as they are and the coefficients solved for; infinite where they
+// cannot be told apart.
+double linear_error(const Model& model, Assembler& assembler);
+
+// The model's own torque on every point of the grid of one capture (used or not), and the torque
+// that reaches its motor.
+Eigen::VectorXd model_torque(const Model& model, const PreparedMotion& motion);
+Eigen::VectorXd delivered_torque(const Model& model, const PreparedMotion& motion);
+
+// "viscous.coefficient" of a linear coefficient ("inertia" for the inertia).
 std::string coefficient_name(const Model& model, const Coefficient& coefficient);
 
 } // namespace servoid

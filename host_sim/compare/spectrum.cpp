@@ -2,6 +2,7 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -16,7 +17,8 @@ size_t smooth_length(size_t n) {
     for (;; ++n) {
         size_t rest = n;
         for (size_t factor : {2, 3, 5})
-            while (rest % factor == 0) rest /= factor;
+            while (rest % factor == 0)
+                rest /= factor;
         if (rest == 1) return n;
     }
 }
@@ -30,8 +32,7 @@ Spectrum power_spectrum(const Eigen::VectorXd& signal, double sample_time_s) {
     const double mean = signal.mean();
     double weight = 0;
     for (size_t i = 0; i < n; ++i) {
-        const double w =
-            0.5 - 0.5 * std::cos(2 * std::numbers::pi * (double(i) + 0.5) / double(n));
+        const double w = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (double(i) + 0.5) / double(n));
         padded[i] = w * (signal[Eigen::Index(i)] - mean);
         weight += w * w;
     }
@@ -48,16 +49,40 @@ Spectrum power_spectrum(const Eigen::VectorXd& signal, double sample_time_s) {
     return out;
 }
 
+namespace {
+
+// Parabola through the logarithms of three bins: exact for a Gaussian-like main lobe.
+double between_bins(const Spectrum& spectrum, Eigen::Index k) {
+    if (k == 0 || k + 1 >= spectrum.power.size()) return double(k) * spectrum.step_Hz;
+    const double a = std::log(spectrum.power[k - 1] + 1e-300);
+    const double b = std::log(spectrum.power[k] + 1e-300);
+    const double c = std::log(spectrum.power[k + 1] + 1e-300);
+    const double bend = a - 2 * b + c;
+    return (double(k) + (bend < 0 ? 0.5 * (a - c) / bend : 0)) * spectrum.step_Hz;
+}
+
+} // namespace
+
+std::vector<double> strongest_lines_Hz(const Eigen::VectorXd& signal, double sample_time_s,
+                                       int most) {
+    const Spectrum spectrum = power_spectrum(signal, sample_time_s);
+    const auto& p = spectrum.power;
+    std::vector<Eigen::Index> peaks;
+    for (Eigen::Index k = 1; k + 1 < p.size(); ++k)
+        if (p[k] > p[k - 1] && p[k] >= p[k + 1] && p[k] > 0) peaks.push_back(k);
+    std::sort(peaks.begin(), peaks.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return p[a] > p[b]; });
+    std::vector<double> out;
+    for (size_t i = 0; i < peaks.size() && i < size_t(most); ++i)
+        out.push_back(between_bins(spectrum, peaks[i]));
+    return out;
+}
+
 double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s) {
     const Spectrum spectrum = power_spectrum(signal, sample_time_s);
     Eigen::Index k = 0;
     if (!(spectrum.power.maxCoeff(&k) > 0)) return 0;
-    if (k == 0 || k + 1 >= spectrum.power.size()) return double(k) * spectrum.step_Hz;
-    // Parabola through the logarithms of three bins: exact for a Gaussian-like main lobe.
-    const double a = std::log(spectrum.power[k - 1] + 1e-300);
-    const double b = std::log(spectrum.power[k]);
-    const double c = std::log(spectrum.power[k + 1] + 1e-300);
-    return (double(k) + 0.5 * (a - c) / (a - 2 * b + c)) * spectrum.step_Hz;
+    return between_bins(spectrum, k);
 }
 
 } // namespace servoid

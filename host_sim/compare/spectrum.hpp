@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace servoid {
 
 struct Spectrum {
@@ -15,5 +17,9 @@ Spectrum power_spectrum(const Eigen::VectorXd& signal, double sample_time_s);
 
 // The frequency of the strongest line, interpolated between bins; 0 for a signal that is constant.
 double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s);
+
+// The strongest local maxima of the spectrum, at most `most`, strongest first.
+std::vector<double> strongest_lines_Hz(const Eigen::VectorXd& signal, double sample_time_s,
+                                       int most);
 
 } // namespace servoid

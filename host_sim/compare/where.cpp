@@ -17,8 +17,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kReversalSpeed = 0.05;    // of the top speed
-constexpr double kAccelerating = 0.2;      // of the top acceleration
+constexpr double kReversalSpeed = 0.05; // of the top speed
+constexpr double kAccelerating = 0.2;   // of the top acceleration
 constexpr int kSpeedRanges = 3;
 constexpr int kTimeParts = 6;
 constexpr int kOrders = 3; // strongest position orders that are reported
@@ -33,7 +33,8 @@ struct Scene {
 // The 95th percentile: a peak that one noisy sample makes is no scale.
 double typical_top(const Vector& x) {
     std::vector<double> size(size_t(x.size()));
-    for (Eigen::Index i = 0; i < x.size(); ++i) size[size_t(i)] = std::abs(x[i]);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+        size[size_t(i)] = std::abs(x[i]);
     const auto at = size.begin() + long(0.95 * double(size.size() - 1));
     std::nth_element(size.begin(), at, size.end());
     return *at;
@@ -46,8 +47,7 @@ std::string motion_regime(const Scene& s, Eigen::Index k) {
         return s.m.acceleration[k] * s.m.velocity[k] > 0 ? "acceleration" : "braking";
     const double width = s.top_speed / kSpeedRanges;
     const int range = std::min(kSpeedRanges - 1, int(speed / width));
-    return fmt::format("cruise {:.3g}…{:.3g} {}", range * width, (range + 1) * width,
-                       s.speed_unit);
+    return fmt::format("cruise {:.3g}…{:.3g} {}", range * width, (range + 1) * width, s.speed_unit);
 }
 
 std::string time_part(const Scene& s, Eigen::Index k) {
@@ -73,8 +73,8 @@ void add_group(const Scene& s, const std::string& group, const Label& label,
         power += r2, count += 1;
     }
     for (const std::string& name : order)
-        out.push_back({group, name, power > 0 ? sums[name].first / power : 0,
-                       sums[name].second / count});
+        out.push_back(
+            {group, name, power > 0 ? sums[name].first / power : 0, sums[name].second / count});
 }
 
 void add_frequencies(const Scene& s, std::vector<Regime>& out) {
@@ -124,7 +124,8 @@ std::vector<Line> strongest_orders(const Scene& s) {
     const double step = 0.2 / travel;
     const int count = int(std::min(4000.0, highest / step));
     std::vector<double> share;
-    for (int i = 10; i < count; ++i) share.push_back(explained_by_order(s, i * step));
+    for (int i = 10; i < count; ++i)
+        share.push_back(explained_by_order(s, i * step));
     std::vector<Line> lines;
     for (size_t i = 1; i + 1 < share.size(); ++i)
         if (share[i] > share[i - 1] && share[i] >= share[i + 1])
@@ -155,15 +156,17 @@ std::vector<Regime> where_it_fails(const PreparedMotion& motion, const Vector& r
     scene.top_speed = motion.velocity.cwiseAbs().maxCoeff();
     scene.top_acceleration = typical_top(motion.acceleration);
     std::vector<Regime> out;
-    add_group(scene, "regime", [&](Eigen::Index k) { return motion_regime(scene, k); }, out);
-    std::sort(out.begin(), out.end(), [](const Regime& a, const Regime& b) {
-        return a.residual_share > b.residual_share;
-    });
-    add_group(scene, "direction",
-              [&](Eigen::Index k) { return motion.velocity[k] > 0 ? "forward" : "reverse"; }, out);
+    add_group(
+        scene, "regime", [&](Eigen::Index k) { return motion_regime(scene, k); }, out);
+    std::sort(out.begin(), out.end(),
+              [](const Regime& a, const Regime& b) { return a.residual_share > b.residual_share; });
+    add_group(
+        scene, "direction",
+        [&](Eigen::Index k) { return motion.velocity[k] > 0 ? "forward" : "reverse"; }, out);
     add_frequencies(scene, out);
     add_orders(scene, out);
-    add_group(scene, "time", [&](Eigen::Index k) { return time_part(scene, k); }, out);
+    add_group(
+        scene, "time", [&](Eigen::Index k) { return time_part(scene, k); }, out);
     return out;
 }
 

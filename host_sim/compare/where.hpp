@@ -9,8 +9,8 @@
 namespace servoid {
 
 struct Regime {
-    std::string group;  // "regime", "direction", "frequency", "position order", "time"
-    std::string regime; // "reversal", "cruise 0.1…0.2 m/s", "order 1 per 2.5 mm", ...
+    std::string group;         // "regime", "direction", "frequency", "position order", "time"
+    std::string regime;        // "reversal", "cruise 0.1…0.2 m/s", "order 1 per 2.5 mm", ...
     double residual_share = 0; // of the residual's power
     double sample_share = 0;   // of the samples, of the band, or what chance would explain
 };

@@ -5,18 +5,39 @@
 namespace servoid {
 
 // One line per effect: its factory, defined in its own file.
-const Effect& viscous_effect();
-const Effect& viscous_asymmetric_effect();
-const Effect& coulomb_effect();
-const Effect& coulomb_asymmetric_effect();
-const Effect& constant_torque_effect();
-const Effect& elastic_load_effect();
+#define SERVOID_EFFECTS(X)                                                                         \
+    X(viscous)                                                                                     \
+    X(viscous_asymmetric)                                                                          \
+    X(coulomb)                                                                                     \
+    X(coulomb_asymmetric)                                                                          \
+    X(stribeck)                                                                                    \
+    X(presliding)                                                                                  \
+    X(load_friction)                                                                               \
+    X(quadratic_drag)                                                                              \
+    X(constant_torque)                                                                             \
+    X(gravity)                                                                                     \
+    X(spring)                                                                                      \
+    X(hard_stop)                                                                                   \
+    X(cogging)                                                                                     \
+    X(torque_ripple)                                                                               \
+    X(torque_gain)                                                                                 \
+    X(torque_lag)                                                                                  \
+    X(dead_time)                                                                                   \
+    X(torque_saturation)                                                                           \
+    X(elastic_load)                                                                                \
+    X(backlash)                                                                                    \
+    X(variable_inertia)                                                                            \
+    X(encoder_eccentricity)                                                                        \
+    X(periodic_disturbance)                                                                        \
+    X(friction_drift)
+
+#define SERVOID_DECLARE(name) const Effect& name##_effect();
+#define SERVOID_LIST(name) &name##_effect(),
+
+SERVOID_EFFECTS(SERVOID_DECLARE)
 
 const std::vector<const Effect*>& catalogue() {
-    static const std::vector<const Effect*> all = {
-        &viscous_effect(),         &viscous_asymmetric_effect(), &coulomb_effect(),
-        &coulomb_asymmetric_effect(), &constant_torque_effect(), &elastic_load_effect(),
-    };
+    static const std::vector<const Effect*> all = {SERVOID_EFFECTS(SERVOID_LIST)};
     return all;
 }
 
@@ -41,17 +62,6 @@ std::string cannot_add(const Effect& effect, const Model& model) {
         if (!model.find(needed) && !model.find(needed + "_asymmetric"))
             return "it needs " + needed + " in the model";
     return "";
-}
-
-Eigen::VectorXd Effect::linear(const EffectTerm& term) const {
-    Eigen::VectorXd coefficients(linear_count());
-    for (int i = 0; i < linear_count(); ++i) coefficients[i] = term.at(info().parameters[size_t(i)].key);
-    return coefficients;
-}
-
-void Effect::set_linear(EffectTerm& term, const Eigen::VectorXd& coefficients) const {
-    for (int i = 0; i < linear_count(); ++i)
-        term.parameters[info().parameters[size_t(i)].key] = coefficients[i];
 }
 
 } // namespace servoid

@@ -1,6 +1,6 @@
 // Coulomb friction: a torque of constant size against the motion, and sticking at rest.
-#include "effects/effect.hpp"
 #include "effects/direction.hpp"
+#include "effects/effect.hpp"
 #include "plant/axis.hpp"
 
 #include <limits>

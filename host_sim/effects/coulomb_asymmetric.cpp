@@ -1,7 +1,7 @@
 // Coulomb friction with one torque for each direction. With a constant torque free, the same thing
 // as symmetric Coulomb friction and that constant torque: the simpler names win.
-#include "effects/effect.hpp"
 #include "effects/direction.hpp"
+#include "effects/effect.hpp"
 #include "plant/axis.hpp"
 
 #include <limits>

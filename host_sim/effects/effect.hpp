@@ -18,8 +18,19 @@ struct AxisDescription; // host_sim/plant/axis.hpp: what the simulator integrate
 
 // The physical quantity of a parameter; its unit follows from the axis being rotary or linear.
 enum class Quantity {
-    torque, viscous, inertia, position, velocity, frequency, ratio, angle, per_rev, time, stiffness,
-    quadratic_drag, acceleration
+    torque,
+    viscous,
+    inertia,
+    position,
+    velocity,
+    frequency,
+    ratio,
+    angle,
+    per_rev,
+    time,
+    stiffness,
+    quadratic_drag,
+    acceleration
 };
 // ampere: the torque is known as a current only.
 std::string unit_of(Quantity quantity, Motion motion, bool ampere = false);
@@ -43,12 +54,40 @@ struct EffectInfo {
     bool repeatable = false; // may be an array of tables
 };
 
-// A measured motion on a uniform grid, before the band limit: the arguments of every law.
+// A measured motion at the sample rate, before the band limit: the arguments of every law.
 struct MotionView {
     Eigen::VectorXd time_s, position, velocity, acceleration;
+    Eigen::VectorXd torque; // that the model needs: the measured one would explain itself
     double sample_time_s = 0;
     double velocity_noise = 0; // standard deviation of the noise of velocity, rad/s or m/s
+    double position_quantum = 0;
+    double band_Hz = 0; // upper edge of what is compared later
+    Motion kind = Motion::rotary;
+    // What the rest of the model says, for effects that change another: refreshed before each fit.
+    double inertia = 0, viscous = 0;
+    Eigen::VectorXd friction;  // torque of all friction of the model
+    bool has_constant = false; // the model has a constant torque: no other effect needs its own
     Eigen::Index size() const { return velocity.size(); }
+    double top_speed() const { return velocity.cwiseAbs().maxCoeff(); }
+    double travel() const {
+        return position.size() ? position.maxCoeff() - position.minCoeff() : 0;
+    }
+};
+
+// The asked torque on its way to the motor, at the capture's sample rate.
+struct TorqueSignal {
+    Eigen::VectorXd samples;
+    double sample_time_s = 0;
+    bool held = false;  // until the next sample; false: plain samples
+    double delay_s = 0; // it acts this much later
+};
+
+// What a search for shape parameters may look at: the motion, and the residual of the model without
+// the effect on a coarser grid of instants.
+struct Search {
+    const MotionView& motion;
+    const Eigen::VectorXd& time_s; // of the grid
+    const Eigen::VectorXd &position, &velocity, &acceleration, &torque, &residual;
 };
 
 // A fitted parameter.
@@ -66,17 +105,50 @@ class Effect {
     virtual void add_to(AxisDescription& axis, const EffectTerm& term) const = 0;
 
     // How many coefficients enter the torque linearly, and one column of torque per coefficient
-    // (rows: motion.size()). The torque the motor must give on top of J·a is columns · linear(term).
+    // (rows: motion.size()). The torque the motor must give on top of J·a is columns ·
+    // linear(term).
     virtual int linear_count() const = 0;
     virtual Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const = 0;
 
-    // Changes the torque that accelerates the inertia (an elastic load, an inertia that varies with
-    // position): on entry J = 1 times the acceleration, on return the torque for J = 1.
-    virtual void shape_inertia(const EffectTerm&, const MotionView&, Eigen::VectorXd&) const {}
-
-    // Coefficients <-> parameters, where they are not simply the parameters in the order of info().
+    // Coefficients <-> parameters, where they are not simply the first parameters of info().
     virtual Eigen::VectorXd linear(const EffectTerm& term) const;
     virtual void set_linear(EffectTerm& term, const Eigen::VectorXd& coefficients) const;
+    // Coefficients that go without saying where their column is zero (the offset of a spring beside
+    // a constant torque).
+    virtual bool may_vanish(int) const { return false; }
+    // The least a coefficient may be: the bound of its parameter; −∞ where it is one of a pair.
+    virtual double linear_lower(int index) const;
+
+    // Changes the torque that accelerates the inertia (an elastic load, a gap): on entry J = 1
+    // times the acceleration, on return the torque for J = 1.
+    virtual void shape_inertia(const EffectTerm&, const MotionView&, Eigen::VectorXd&) const {}
+    virtual bool shapes_inertia() const { return false; }
+
+    // Changes the asked torque into what reaches the motor (lag, dead time, saturation).
+    virtual void deliver(const EffectTerm&, TorqueSignal&) const {}
+    virtual bool delivers() const { return false; }
+
+    // Whether the columns depend on the torque.
+    virtual bool uses_torque() const { return false; }
+    // Whether the columns depend on what the rest of the model says (MotionView's last members).
+    virtual bool depends_on_model() const { return uses_torque(); }
+
+    // Parameters that do not enter linearly, and where a search for them starts (every other
+    // parameter of the terms is filled in too). Empty starts: this motion cannot show the effect.
+    virtual std::vector<std::string> shape_keys() const { return {}; }
+    virtual std::vector<EffectTerm> starts(const Search& search) const;
+
+    // The price of a search, as the logarithm of how many independent places it looked at.
+    virtual double search_price() const { return 1.5 * double(shape_keys().size()); }
+    // Why this motion cannot show the effect, in words ("less than one and a half turns"), or "".
+    virtual std::string cannot_show(const MotionView&) const { return ""; }
+
+    // Why a fitted term is another thing than this effect on this motion ("it only bends the
+    // viscous line"), or "".
+    virtual std::string implausible(const EffectTerm&, const MotionView&) const { return ""; }
+
+  protected:
+    EffectTerm blank() const; // name, every parameter at 0 or its nearest bound
 };
 
 } // namespace servoid

@@ -31,8 +31,8 @@ class InverseModes {
         const double h = p_ - alpha, hd = dp_ - beta;
         const double k = (hd + sigma_ * h) / damped_;
         const double e = decay_ * (h * cosine_ + k * sine_);
-        const double ed = decay_ * (-sigma_ * (h * cosine_ + k * sine_) +
-                                    damped_ * (k * cosine_ - h * sine_));
+        const double ed =
+            decay_ * (-sigma_ * (h * cosine_ + k * sine_) + damped_ * (k * cosine_ - h * sine_));
         p_ = e + alpha + beta * step_;
         dp_ = ed + beta;
         input_ = u;
@@ -97,7 +97,35 @@ class ElasticLoadEffect : public Effect {
         if (torque.size() == 0) return;
         InverseModes modes(load_of(term), motion.sample_time_s);
         modes.start(torque[0]);
-        for (Eigen::Index i = 0; i < torque.size(); ++i) torque[i] = modes.next(torque[i]);
+        for (Eigen::Index i = 0; i < torque.size(); ++i)
+            torque[i] = modes.next(torque[i]);
+    }
+
+    bool shapes_inertia() const override { return true; }
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        if (term.at("resonance_frequency") <= term.at("antiresonance_frequency"))
+            return "a resonance below its antiresonance is no elastic load";
+        return term.at("antiresonance_frequency") > 2.5 * motion.band_Hz
+                   ? "its frequencies lie far above the compared band"
+                   : "";
+    }
+
+    std::vector<std::string> shape_keys() const override {
+        return {"antiresonance_frequency", "resonance_frequency", "antiresonance_damping",
+                "resonance_damping"};
+    }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        for (double share : {1.6, 1.0, 0.7, 0.5, 0.35, 0.25})
+            for (double ratio : {1.12, 1.4, 2.0}) {
+                EffectTerm term = blank();
+                term.parameters["antiresonance_frequency"] = share * search.motion.band_Hz;
+                term.parameters["resonance_frequency"] = ratio * share * search.motion.band_Hz;
+                term.parameters["antiresonance_damping"] = 0.05;
+                term.parameters["resonance_damping"] = 0.05;
+                out.push_back(term);
+            }
+        return out;
     }
 };
 

@@ -48,7 +48,8 @@ WindowResult run_window(const Eigen::VectorXd& torque, const Eigen::VectorXd& po
     for (Eigen::Index i = task.first; i < task.first + task.count; ++i)
         sid_bin_step(&out.bin, rounded(torque[i] / s.full_torque * kTorqueUnits),
                      rounded((position[i] - origin) / s.position_per_count));
-    while (!sid_bin_gram_advance(&out.bin, 1U << 16)) {}
+    while (!sid_bin_gram_advance(&out.bin, 1U << 16)) {
+    }
     sid_inertia_config_t config{};
     config.method = task.method;
     config.torque_timing = task.timing;

@@ -7,7 +7,8 @@
 
 namespace servoid {
 
-// What one unit of the core means in SI: torque 2^-20 of this many N·m (or N), one count, one sample.
+// What one unit of the core means in SI: torque 2^-20 of this many N·m (or N), one count, one
+// sample.
 struct CoreScale {
     double full_torque = 1;        // N·m or N that the core calls "rated"
     double position_per_count = 1; // rad or m

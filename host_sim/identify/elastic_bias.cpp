@@ -107,8 +107,7 @@ CorrectedInertia remove_elastic_bias(const std::vector<double>& frequency_Hz,
     out.scatter = std::sqrt(((law(x, best.p) - j) / best.p[0]).squaredNorm() / double(n));
     if (best.p.size() > 1 && best.p[1] > 0) {
         const double a = best.p[1], f = top / std::sqrt(a);
-        out.antiresonance_Hz =
-            Estimate{f, f / (2 * a) * std::sqrt(scale * best.covariance(1, 1))};
+        out.antiresonance_Hz = Estimate{f, f / (2 * a) * std::sqrt(scale * best.covariance(1, 1))};
     }
     return out;
 }

@@ -53,7 +53,8 @@ void refuse(const sid_friction_result_t& result, const std::vector<SpeedRun>& ru
                       runs_wanted);
     case SID_FRICTION_NOT_RUN:
         throw Refusal("there is no run to fit", runs_wanted);
-    default: break;
+    default:
+        break;
     }
     (void)runs;
 }
@@ -102,8 +103,7 @@ FrictionResult fit_friction(std::vector<SpeedRun> runs) {
     for (SpeedRun& run : runs) {
         const DirectionFit& side = run.velocity > 0 ? f : r;
         const double sign = run.velocity > 0 ? 1 : -1;
-        run.residual =
-            run.torque - side.viscous.value * run.velocity - sign * side.offset.value;
+        run.residual = run.torque - side.viscous.value * run.velocity - sign * side.offset.value;
     }
     out.runs = std::move(runs);
     return out;

@@ -13,7 +13,7 @@ namespace servoid {
 // One stretch of constant speed.
 struct SpeedRun {
     std::string file;
-    int segment = -1; // of the capture, −1: the whole of it
+    int segment = -1;                // of the capture, −1: the whole of it
     double velocity = 0, torque = 0; // means
     double residual = 0;             // torque less what the friction law says
     double torque_spread = 0;        // standard deviation of the samples in the run
@@ -32,8 +32,8 @@ struct FrictionResult {
     std::vector<SpeedRun> runs;
 };
 
-// Constant-speed stretches of a capture: each segment, else the longest stretches within 3 % (or two
-// quanta) of their own median speed. Starts and stops are left out.
+// Constant-speed stretches of a capture: each segment, else the longest stretches within 3 % (or
+// two quanta) of their own median speed. Starts and stops are left out.
 std::vector<SpeedRun> find_runs(const Capture& capture, Input input);
 
 // Throws Refusal with fewer than two speeds in a direction, or one direction only.

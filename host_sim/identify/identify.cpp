@@ -28,13 +28,18 @@ Vector as_vector(const std::vector<double>& values) {
 
 const char* what_to_record(sid_reason_t reason) {
     switch (reason) {
-    case SID_NO_EXCITATION: return "a larger amplitude or a lower frequency";
-    case SID_WINDOW_TOO_SHORT: return "at least two periods after the start, ten or more rows each";
-    case SID_STROKE_CLIPPED: return "a smaller stroke";
+    case SID_NO_EXCITATION:
+        return "a larger amplitude or a lower frequency";
+    case SID_WINDOW_TOO_SHORT:
+        return "at least two periods after the start, ten or more rows each";
+    case SID_STROKE_CLIPPED:
+        return "a smaller stroke";
     case SID_NEGATIVE_INERTIA:
         return "torque that is positive where it speeds the axis up (is its sign reversed?)";
-    case SID_ILL_CONDITIONED: return "a longer window";
-    default: return "a periodic move in both directions";
+    case SID_ILL_CONDITIONED:
+        return "a longer window";
+    default:
+        return "a periodic move in both directions";
     }
 }
 
@@ -64,8 +69,10 @@ std::vector<double> frequencies(const Capture& capture, const IdentifyOptions& o
 // The window in periods: what was asked for, the paper's 8th to 10th, or the last two there are.
 void choose_periods(const Capture& capture, const IdentifyOptions& options, Identification& out) {
     const double length_s = double(capture.rows()) * capture.sample_time_s;
-    const double periods = length_s * out.frequency_Hz;
-    const double whole = std::floor(periods + 1e-6);
+    // A record of ten periods is up to half a row short of them.
+    const double rounding = 0.5 * capture.sample_time_s * out.frequency_Hz + 1e-6;
+    const double periods = length_s * out.frequency_Hz + rounding;
+    const double whole = std::floor(periods);
     out.last_period = options.last_period.value_or(whole >= 10 ? 10 : whole);
     out.first_period = options.first_period.value_or(std::max(0.0, out.last_period - 2));
     if (whole < 1)
@@ -74,7 +81,7 @@ void choose_periods(const Capture& capture, const IdentifyOptions& options, Iden
                       "at least two whole periods");
     if (!(out.first_period >= 0 && out.last_period > out.first_period))
         throw UsageError("--window wants FIRST,LAST with 0 ≤ FIRST < LAST");
-    if (out.last_period > periods + 1e-6)
+    if (out.last_period > periods)
         throw Refusal(fmt::format("{}: the window ends after period {:.4g}, the capture after "
                                   "{:.4g}",
                                   capture.path, out.last_period, periods),
@@ -90,21 +97,41 @@ double inflation(const WindowTask& task) {
         const double p = kTurn * task.frequency_Hz * task.scale.sample_time_s * double(i);
         const double t = 2 * double(i) / double(n - 1) - 1;
         x(i, 0) = std::cos(p), x(i, 1) = std::sin(p);
-        for (int k = 0; k < trend; ++k) x(i, 2 + k) = std::pow(t, k);
+        for (int k = 0; k < trend; ++k)
+            x(i, 2 + k) = std::pow(t, k);
     }
     const Eigen::MatrixXd inverse =
         (x.transpose() * x).ldlt().solve(Eigen::MatrixXd::Identity(x.cols(), x.cols()));
     return std::max(inverse(0, 0), inverse(1, 1)) * double(n) / 2;
 }
 
+// The record with its first period put before it and its last one behind it, each moved to join: a
+// kernel that reaches past the ends finds the motion going on.
+Vector continued(const Vector& x, Eigen::Index period, Eigen::Index reach) {
+    const Eigen::Index n = x.size();
+    Vector out(n + 2 * reach);
+    out.segment(reach, n) = x;
+    for (Eigen::Index i = 1; i <= reach; ++i) {
+        out[reach - i] = x[0] + x[period - i] - x[period];
+        out[reach + n - 1 + i] = x[n - 1] + x[n - 1 - period + i] - x[n - 1 - period];
+    }
+    return out;
+}
+
 // The velocity with the widest band whose noise stays small against the velocity itself: its sign
 // must turn at the right instant, and a narrow band moves the turn.
 MotionView velocity_of(const Capture& capture, const Vector& position, double frequency_Hz) {
     const double noise = sample_noise(position, capture.position_quantum);
+    const double step = capture.sample_time_s;
+    // The kernel reaches half a period where the band is six times the frequency.
+    const auto period = std::min(position.size() - 1, std::lround(1 / (frequency_Hz * step)));
+    const Eigen::Index reach =
+        std::min<Eigen::Index>(period, std::lround(0.7 * double(period)) + 12);
+    const Vector longer = continued(position, period, reach);
     MotionView out;
-    for (double band = 0.3 / capture.sample_time_s;; band /= 1.3) {
-        const LowPass low_pass(capture.sample_time_s, band);
-        out.velocity = low_pass.apply(position, {0, capture.sample_time_s, position.size()}, 1);
+    for (double band = 0.3 / step;; band /= 1.3) {
+        const LowPass low_pass(step, band);
+        out.velocity = low_pass.apply(longer, {double(reach) * step, step, position.size()}, 1);
         out.velocity_noise = noise * low_pass.noise_gain(1);
         const double rms = out.velocity.norm() / std::sqrt(double(out.velocity.size()));
         if (out.velocity_noise < 0.02 * rms || band < 6 * frequency_Hz) return out;
@@ -144,7 +171,8 @@ double coulomb_of(const Model& model) {
     double sum = 0;
     for (const EffectTerm& term : model.effects)
         if (term.name.starts_with("coulomb"))
-            for (const auto& [key, value] : term.parameters) sum = std::max(sum, value);
+            for (const auto& [key, value] : term.parameters)
+                sum = std::max(sum, value);
     return sum;
 }
 
@@ -170,8 +198,7 @@ Identification identify_one(const Capture& capture, double frequency_Hz,
     const double per_period = 1 / (frequency_Hz * capture.sample_time_s);
     task.first = std::lround(out.first_period * per_period);
     task.count = std::min<Eigen::Index>(
-        std::lround((out.last_period - out.first_period) * per_period),
-        torque.size() - task.first);
+        std::lround((out.last_period - out.first_period) * per_period), torque.size() - task.first);
     const double rated = options.model ? options.model->drive.rated_torque : 0;
     task.scale = choose_scale(torque.segment(task.first, task.count),
                               position.segment(task.first, task.count), rated,

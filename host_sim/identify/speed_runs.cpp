@@ -15,9 +15,9 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kWithin = 0.03;     // of the median speed
+constexpr double kWithin = 0.03; // of the median speed
 constexpr double kPlateauBlock_s = 0.02;
-constexpr long kFewest = 16;         // samples of a run
+constexpr long kFewest = 16; // samples of a run
 
 struct Speed {
     Vector velocity; // per row; rows near the ends of a record without velocity are NaN
@@ -27,8 +27,8 @@ struct Speed {
 Speed speed_of(const Capture& capture) {
     Speed out;
     if (!capture.velocity.empty()) {
-        out.velocity = Eigen::Map<const Vector>(capture.velocity.data(),
-                                                Eigen::Index(capture.rows()));
+        out.velocity =
+            Eigen::Map<const Vector>(capture.velocity.data(), Eigen::Index(capture.rows()));
         out.noise = sample_noise(out.velocity, capture.velocity_quantum);
         return out;
     }
@@ -70,19 +70,19 @@ std::vector<Stretch> by_segment(const Capture& capture) {
 }
 
 double tolerance(const Capture& capture, const Speed& speed, double median) {
-    return std::max({kWithin * std::abs(median), 2.01 * capture.velocity_quantum,
-                     5 * speed.noise});
+    return std::max({kWithin * std::abs(median), 2.01 * capture.velocity_quantum, 5 * speed.noise});
 }
 
 // The longest part of a stretch that stays near the stretch's median speed.
 Stretch steady_part(const Capture& capture, const Speed& speed, const Stretch& s) {
-    const double median = median_of({speed.velocity.data() + s.first,
-                                     speed.velocity.data() + s.end});
+    const double median =
+        median_of({speed.velocity.data() + s.first, speed.velocity.data() + s.end});
     const double within = tolerance(capture, speed, median);
     Stretch best{s.first, s.first, s.segment};
     for (long i = s.first; i < s.end;) {
         long end = i;
-        while (end < s.end && std::abs(speed.velocity[end] - median) <= within) ++end;
+        while (end < s.end && std::abs(speed.velocity[end] - median) <= within)
+            ++end;
         if (end - i > best.end - best.first) best = {i, end, s.segment};
         i = std::max(end, i + 1);
     }
@@ -91,16 +91,17 @@ Stretch steady_part(const Capture& capture, const Speed& speed, const Stretch& s
 
 // A capture without segments: neighbouring blocks of the same speed make a stretch.
 std::vector<Stretch> plateaus(const Capture& capture, const Speed& speed) {
-    const long block =
-        std::max(kFewest / 2, std::lround(kPlateauBlock_s / capture.sample_time_s));
+    const long block = std::max(kFewest / 2, std::lround(kPlateauBlock_s / capture.sample_time_s));
     std::vector<Stretch> out;
     double last = NAN;
     for (long i = 0; i + block <= long(capture.rows()); i += block) {
         const Vector part = speed.velocity.segment(i, block);
         const double mean = part.mean(), within = tolerance(capture, speed, mean);
         const bool steady = std::isfinite(mean) && part.maxCoeff() - part.minCoeff() <= 2 * within;
-        if (steady && std::abs(mean - last) <= within) out.back().end = i + block;
-        else if (steady) out.push_back({i, i + block, -1});
+        if (steady && std::abs(mean - last) <= within)
+            out.back().end = i + block;
+        else if (steady)
+            out.push_back({i, i + block, -1});
         last = steady ? mean : NAN;
     }
     std::erase_if(out, [&](const Stretch& s) { return s.end - s.first < 3 * block; });
@@ -110,9 +111,8 @@ std::vector<Stretch> plateaus(const Capture& capture, const Speed& speed) {
 bool mostly_steady(const Capture& capture, const Speed& speed) {
     const double median = median_of({speed.velocity.begin(), speed.velocity.end()});
     const double within = tolerance(capture, speed, median);
-    const auto near = std::count_if(speed.velocity.begin(), speed.velocity.end(), [&](double v) {
-        return std::abs(v - median) <= within;
-    });
+    const auto near = std::count_if(speed.velocity.begin(), speed.velocity.end(),
+                                    [&](double v) { return std::abs(v - median) <= within; });
     return double(near) > 0.6 * double(speed.velocity.size());
 }
 
@@ -142,7 +142,8 @@ std::vector<SpeedRun> find_runs(const Capture& capture, Input input) {
             stretches.push_back(steady_part(capture, speed, s));
     else if (mostly_steady(capture, speed))
         stretches.push_back(steady_part(capture, speed, {0, long(capture.rows()), -1}));
-    else stretches = plateaus(capture, speed);
+    else
+        stretches = plateaus(capture, speed);
     std::vector<SpeedRun> out;
     for (const Stretch& s : stretches) {
         if (s.end - s.first < kFewest) continue;

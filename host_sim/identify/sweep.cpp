@@ -42,8 +42,7 @@ SweepPoint point_at(const Model& model, double frequency_Hz, const SweepOptions&
     IdentifyOptions identify_options;
     identify_options.frequencies_Hz = {frequency_Hz};
     identify_options.first_period = options.session.ramp_periods + options.session.settle_periods;
-    identify_options.last_period =
-        *identify_options.first_period + options.session.window_periods;
+    identify_options.last_period = *identify_options.first_period + options.session.window_periods;
     identify_options.method = options.session.method;
     identify_options.model = &model;
     const Identification again = identify(capture, identify_options).front();

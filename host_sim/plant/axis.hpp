@@ -6,8 +6,12 @@
 // each half is exact too, and an event is located within h/2^24.
 #pragma once
 
+#include "model/model.hpp"
+
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace servoid {
 
@@ -18,13 +22,58 @@ struct ElasticLoad {
     double antiresonance_damping = 0, resonance_damping = 0;
 };
 
+// Where the axis is: the arguments of a law that is a plain function.
+struct AxisPoint {
+    double time_s = 0, position = 0, velocity = 0;
+    double torque = 0; // delivered, N·m or N
+};
+
+// Bristle friction (Dahl): F' = σ v (1 − F sgn v / F_c), F_c = torque, σ = stiffness.
+struct Bristle {
+    double stiffness = 0, torque = 0;
+};
+
+// A gap between motor and load: the load coasts inside it and meets either face inelastically.
+struct Gap {
+    double width = 0, load_share = 0; // share of the inertia that is behind the gap
+};
+
+// J(θ) = J·(1 + fraction·cos(order·θ + phase)), with its ½·J'·v² term.
+struct InertiaWave {
+    double fraction = 0, order = 0, phase = 0; // order in rad per rad or rad per m
+};
+
+// What becomes of the asked torque on its way to the motor, in this order: limit, gain and ripple,
+// lag, dead time.
+struct DriveChain {
+    double limit = 0; // 0: none
+    double gain = 1;
+    double lag_s = 0; // through 1/(τs+1)
+    double dead_time_s = 0;
+    std::vector<std::function<double(double position)>>
+        ripple; // each adds this share of the torque
+};
+
 // What the simulator integrates. Effects write into it (Effect::add_to). Torques oppose the motor.
 struct AxisDescription {
+    Motion kind = Motion::rotary;
     double inertia = 0; // kg·m² or kg
     double viscous_forward = 0, viscous_reverse = 0;
     double coulomb_forward = 0, coulomb_reverse = 0;
     double constant_torque = 0;
     std::optional<ElasticLoad> elastic;
+    std::optional<Bristle> bristle;
+    std::optional<Gap> backlash;
+    std::optional<InertiaWave> inertia_wave;
+    double load_friction = 0; // μ·|delivered torque|·sgn v, sticks like Coulomb friction
+    // On top of Coulomb friction, as a size against the motion: Stribeck.
+    std::vector<std::function<double(double speed)>> sliding_extra;
+    // Any other law, opposing the motor: springs, drag, cogging, what depends on time.
+    std::vector<std::function<double(const AxisPoint&)>> opposing;
+    std::function<double(double time_s)> friction_factor; // empty: 1
+    DriveChain drive;
+    std::function<double(double position)>
+        sensor_error; // added to the measured position; may be empty
 };
 
 class Axis {

@@ -57,6 +57,7 @@ sid_loop_config_t loop_config(const Model& model, double per_count, double full_
 
 AxisDescription axis_of(const Model& model) {
     AxisDescription axis;
+    axis.kind = model.motion;
     axis.inertia = model.inertia;
     for (const EffectTerm& term : model.effects) {
         const Effect* effect = find_effect(term.name);
@@ -67,26 +68,43 @@ AxisDescription axis_of(const Model& model) {
 }
 
 SimulatedDrive::SimulatedDrive(const Model& model, const DriveOptions& options)
+    : SimulatedDrive(model, options, axis_of(model)) {}
+
+SimulatedDrive::SimulatedDrive(const Model& model, const DriveOptions& options,
+                               const AxisDescription& axis)
     : sample_time_s_(controller_of(model).sample_time_s), per_count_(per_count_of(model)),
-      full_torque_(full_torque_of(model, options)), axis_(axis_of(model), sample_time_s_),
-      random_(options.seed), noise_(0, std::max(options.torque_noise, 1e-300)),
-      noisy_(options.torque_noise > 0) {
+      full_torque_(full_torque_of(model, options)), sensor_error_(axis.sensor_error),
+      axis_(axis, sample_time_s_), random_(options.seed),
+      noise_(0, std::max(options.torque_noise, 1e-300)), noisy_(options.torque_noise > 0),
+      position_noise_(options.position_noise), position_random_(~options.seed) {
     const sid_loop_config_t config = loop_config(model, per_count_, full_torque_);
     if (!sid_loop_init(&loop_, &config))
         throw UsageError("the loop's gains are outside what the fixed-point loop can hold "
                          "(position gain times sample time must be at most 1)");
+    read();
     sid_loop_reset(&loop_, 0);
 }
 
 int32_t SimulatedDrive::counts() const {
-    return int32_t(std::floor(axis_.position() / per_count_ + 0.5));
+    double position = axis_.position();
+    if (sensor_error_) position += sensor_error_(position);
+    // An axis that has run away stays at the end of the counter.
+    constexpr double limit = 2147483647.0;
+    const double counted = std::floor((position + reading_noise_) / per_count_ + 0.5);
+    return int32_t(std::fmax(-limit, std::fmin(counted, limit)));
+}
+
+void SimulatedDrive::read() {
+    if (position_noise_ > 0) reading_noise_ = position_noise_ * unit_noise_(position_random_);
 }
 
 void SimulatedDrive::set_state(double position, double velocity) {
     for (int k = 4; k >= 1; --k) {
         axis_.set_state(position - k * sample_time_s_ * velocity, velocity);
-        if (k == 4) sid_loop_reset(&loop_, counts());
-        else sid_loop_step(&loop_, counts() * 256, counts());
+        if (k == 4)
+            sid_loop_reset(&loop_, counts());
+        else
+            sid_loop_step(&loop_, counts() * 256, counts());
     }
     axis_.set_state(position, velocity);
     loop_.sum_q32 = 0;
@@ -100,6 +118,7 @@ DriveSample SimulatedDrive::step_q8(int32_t reference_q8) {
     out.torque_pu_q20 = sid_loop_step(&loop_, reference_q8, out.counts);
     out.torque = out.torque_pu_q20 / kTorqueUnits * full_torque_;
     axis_.step(noisy_ ? out.torque + noise_(random_) : out.torque);
+    read();
     return out;
 }
 

@@ -1,7 +1,8 @@
 // The simulated drive: a continuous axis, an encoder that counts, and the core's own loop (Fig. 2).
 //
-// One control period: read the counts at t_k, compute the torque from them and the reference (sid_loop),
-// hold it until t_{k+1} while the axis moves. A row of a capture is what was known at t_k.
+// One control period: read the counts at t_k, compute the torque from them and the reference
+// (sid_loop), hold it until t_{k+1} while the axis moves. A row of a capture is what was known at
+// t_k.
 #pragma once
 
 #include "model/model.hpp"
@@ -18,8 +19,9 @@ AxisDescription axis_of(const Model& model);
 
 struct DriveOptions {
     unsigned long seed = 1;
-    double torque_noise = 0; // N·m or N per sample, a torque that disturbs the axis
-    double full_torque = 0;  // what the core calls rated where the model does not say; 0: chosen
+    double torque_noise = 0;   // N·m or N per sample, a torque that disturbs the axis
+    double position_noise = 0; // rad or m, white, added before the encoder counts
+    double full_torque = 0;    // what the core calls rated where the model does not say; 0: chosen
 };
 
 struct DriveSample {
@@ -31,11 +33,15 @@ class SimulatedDrive {
   public:
     // Throws UsageError where the model has no controller.
     SimulatedDrive(const Model& model, const DriveOptions& options);
+    // With an axis of its own in place of the model's.
+    SimulatedDrive(const Model& model, const DriveOptions& options, const AxisDescription& axis);
 
-    DriveSample step(double reference);          // rad or m
-    DriveSample step_q8(int32_t reference_q8);   // the core's unit
+    DriveSample step(double reference);        // rad or m
+    DriveSample step_q8(int32_t reference_q8); // the core's unit
 
-    int32_t counts() const; // where the encoder stands now
+    // What the encoder says now: the position, its error (AxisDescription::sensor_error), its
+    // noise.
+    int32_t counts() const;
     double sample_time_s() const { return sample_time_s_; }
     double position_per_count() const { return per_count_; }
     double full_torque() const { return full_torque_; } // N·m or N of 1.0 per unit
@@ -44,12 +50,18 @@ class SimulatedDrive {
     void set_state(double position, double velocity);
 
   private:
+    void read();
+
     double sample_time_s_, per_count_, full_torque_;
+    std::function<double(double)> sensor_error_;
     Axis axis_;
     sid_loop_t loop_{};
     std::mt19937_64 random_;
     std::normal_distribution<double> noise_;
     bool noisy_;
+    double position_noise_, reading_noise_ = 0; // standard deviation; of the next sample
+    std::mt19937_64 position_random_;           // its own, so that neither noise changes the other
+    std::normal_distribution<double> unit_noise_{0, 1};
 };
 
 } // namespace servoid

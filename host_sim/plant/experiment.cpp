@@ -1,9 +1,9 @@
 #include "plant/experiment.hpp"
 
 #include "common/error.hpp"
+#include "common/toml.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
@@ -50,7 +50,8 @@ Experiment multisine(const Keys& k) {
     e.duration_s = k.at("periods") / k.at("step_Hz");
     e.position_ref = [=](double t) {
         double sum = 0; // from rest: each line less its own start
-        for (const Line& l : lines) sum += std::sin(l.w * t + l.phase) - std::sin(l.phase);
+        for (const Line& l : lines)
+            sum += std::sin(l.w * t + l.phase) - std::sin(l.phase);
         return a * sum;
     };
     return e;
@@ -111,7 +112,8 @@ Experiment speeds(const Keys& k) {
     e.position_ref = [=](double t) {
         double start = 0;
         size_t i = 0;
-        for (; i + 1 < list.size() && t >= run; ++i, t -= run) start += soft_run(list[i], run, run);
+        for (; i + 1 < list.size() && t >= run; ++i, t -= run)
+            start += soft_run(list[i], run, run);
         return start + soft_run(list[i], run, t);
     };
     e.segment = [=](double t) { return int(std::min(t / run, double(list.size() - 1))); };
@@ -122,11 +124,18 @@ const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all = {
         {"sine", {{"frequency_Hz", 100}, {"amplitude", 1}, {"periods", 10}}, sine},
         {"multisine",
-         {{"from_Hz", 5}, {"to_Hz", 250}, {"step_Hz", 5}, {"amplitude", 0.1}, {"periods", 10},
+         {{"from_Hz", 5},
+          {"to_Hz", 250},
+          {"step_Hz", 5},
+          {"amplitude", 0.1},
+          {"periods", 10},
           {"seed", 1}},
          multisine},
         {"trapezoid",
-         {{"stroke", 6.2831853071795862}, {"velocity", 50}, {"acceleration", 2000}, {"dwell", 0},
+         {{"stroke", 6.2831853071795862},
+          {"velocity", 50},
+          {"acceleration", 2000},
+          {"dwell", 0},
           {"cycles", 4}},
          trapezoid},
         {"constant_speed", {{"velocity", 20}, {"duration", 1}}, constant_speed},
@@ -142,13 +151,14 @@ const Keys& common_keys() {
 
 std::string known(const Keys& keys) {
     std::string out;
-    for (const auto& [key, value] : keys) out += (out.empty() ? "" : ", ") + key;
+    for (const auto& [key, value] : keys)
+        out += (out.empty() ? "" : ", ") + key;
     return out;
 }
 
 void check_range(const std::string& key, double value) {
-    static const std::vector<std::string> any = {"velocity", "seed", "torque_noise", "rest", "dwell",
-                                                 "from", "to"};
+    static const std::vector<std::string> any = {
+        "velocity", "seed", "torque_noise", "rest", "dwell", "from", "to"};
     const bool free = std::find(any.begin(), any.end(), key) != any.end();
     if (!std::isfinite(value) || (!free && value <= 0) || (key == "rest" && value < 0) ||
         (key == "dwell" && value < 0) || (key == "torque_noise" && value < 0))
@@ -168,8 +178,7 @@ Experiment make(const std::string& name, const Keys& given) {
             keys[key] = value;
         }
         Experiment e = kind.make(keys);
-        if (!(e.duration_s <= 3600))
-            throw UsageError("experiment: longer than an hour");
+        if (!(e.duration_s <= 3600)) throw UsageError("experiment: longer than an hour");
         e.torque_noise = keys.at("torque_noise");
         if (const double rest = keys.at("rest"); rest > 0) {
             e.duration_s += rest;
@@ -180,7 +189,8 @@ Experiment make(const std::string& name, const Keys& given) {
         return e;
     }
     std::string names;
-    for (const Kind& kind : kinds()) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    for (const Kind& kind : kinds())
+        names += (names.empty() ? "" : ", ") + std::string(kind.name);
     throw UsageError(fmt::format("experiment: no kind {}; there are {}", name, names));
 }
 

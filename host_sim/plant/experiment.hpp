@@ -1,7 +1,7 @@
 // What the simulated drive is asked to do.
 //
-// Text form: `kind:key=value,key=value` or the path of a .toml file with the same keys. Every key has
-// a default. Kinds and keys (SI, Hz; position in rad or m):
+// Text form: `kind:key=value,key=value` or the path of a .toml file with the same keys. Every key
+// has a default. Kinds and keys (SI, Hz; position in rad or m):
 //   sine            frequency_Hz amplitude periods
 //   multisine       from_Hz to_Hz step_Hz amplitude periods seed   (random phases)
 //   trapezoid       stroke velocity acceleration dwell cycles      (there and back)
@@ -19,7 +19,7 @@
 namespace servoid {
 
 struct Experiment {
-    std::string text;     // how it was written, for the capture's metadata
+    std::string text; // how it was written, for the capture's metadata
     double duration_s = 0;
     double torque_noise = 0; // N·m or N, per sample
     std::optional<double> period_s;

@@ -15,8 +15,8 @@ Capture simulate(const Model& model, const Experiment& experiment, unsigned long
     out.sample_time_s = drive.sample_time_s();
     out.period_s = experiment.period_s;
     out.position_quantum = drive.position_per_count();
-    out.metadata["source"] = fmt::format("servoid simulate, {}, {}, seed {}", model.name,
-                                         experiment.text, seed);
+    out.metadata["source"] =
+        fmt::format("servoid simulate, {}, {}, seed {}", model.name, experiment.text, seed);
     out.metadata["sample_time_s"] = fmt::format("{:.17g}", out.sample_time_s);
     if (experiment.period_s)
         out.metadata["period_s"] = fmt::format("{:.17g}", *experiment.period_s);

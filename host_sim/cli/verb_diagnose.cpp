@@ -1,0 +1,179 @@
+// servoid diagnose: which physical effect is missing?
+#include "cli/app.hpp"
+#include "cli/parameters.hpp"
+#include "common/file.hpp"
+#include "diagnose/diagnose.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <memory>
+
+namespace servoid::cli {
+
+namespace {
+
+struct Options {
+    Output output;
+    CaptureOptions captures;
+    std::string model;
+};
+
+Json parameters_of(const Candidate& c, const Diagnosis& d, bool ampere) {
+    Json out = Json::object();
+    for (const FittedParameter& p : c.parameters)
+        out[p.name] = parameter(p.estimate.value, p.estimate.std,
+                                unit_of(p.quantity, d.before.model.motion, ampere));
+    return out;
+}
+
+Json candidate_json(const Candidate& c, const Diagnosis& d, bool ampere) {
+    Json out = {{"effect", c.effect},
+                {"probability", number(c.probability)},
+                {"error_after", number(c.error_after)},
+                {"validation_error_after", number(c.validation_error_after)},
+                {"parameters", parameters_of(c, d, ampere)},
+                {"signature", c.signature}};
+    if (!c.note.empty()) out["note"] = c.note;
+    return out;
+}
+
+Json to_json(const Diagnosis& d, bool ampere) {
+    Json out = {{"schema", "servoid.diagnose/1"},
+                {"verdict", verdict_name(d.verdict)},
+                {"error_before", number(d.error_before)},
+                {"validation_error_before", number(d.validation_error_before)},
+                {"noise_floor", number(d.noise_floor)},
+                {"noise_floor_from", d.floor_from_repetition ? "repetition" : "quantisation"},
+                {"band_Hz", d.band_Hz},
+                {"candidates", Json::array()}};
+    for (const Candidate& c : d.candidates)
+        out["candidates"].push_back(candidate_json(c, d, ampere));
+    out["probes"] = Json::array();
+    for (const Probe& p : d.probes)
+        out["probes"].push_back({{"variable", p.name}, {"explained", number(p.explained)}});
+    out["model_parameters"] = fitted_parameters(d.before, ampere);
+    out["advice"] = d.advice;
+    return out;
+}
+
+void print(const Output& out, const Diagnosis& d, bool ampere) {
+    out.line(fmt::format("{}   torque error {}, noise floor {}, {:.3g} Hz band",
+                         out.bold(verdict_name(d.verdict)), percent(d.error_before),
+                         percent(d.noise_floor), d.band_Hz));
+    out.line(d.advice + "\n");
+    out.line(fmt::format("{:<22} {:>11} {:>9} {:>9}", "effect", "probability", "after", "unseen"));
+    for (const Candidate& c : d.candidates) {
+        if (!c.fitted) continue;
+        out.line(fmt::format("{:<22} {:>11.3f} {:>9} {:>9}   {}", c.effect, c.probability,
+                             percent(c.error_after), percent(c.validation_error_after), c.note));
+    }
+    if (d.candidates.empty() || !d.candidates.front().sound) return;
+    const Candidate& best = d.candidates.front();
+    out.line(fmt::format("\n{}: {}", best.effect, best.signature));
+    for (const FittedParameter& p : best.parameters)
+        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}", p.name, p.estimate.value,
+                             p.estimate.std, unit_of(p.quantity, d.before.model.motion, ampere)));
+}
+
+DiagnoseOptions with_progress(const Output& output) {
+    DiagnoseOptions options;
+    if (isatty(STDERR_FILENO) && !output.quiet)
+        options.progress = [](const std::string& effect, double share) {
+            std::cerr << fmt::format("\r{:3.0f} %  {:<24}", 100 * share, effect)
+                      << (share > 0.95 ? "\r                                \r" : "") << std::flush;
+        };
+    return options;
+}
+
+void run_diagnose(const Options& o) {
+    const Model model = read_model(o.model);
+    const std::vector<Capture> captures = o.captures.read(&model);
+    const bool ampere = captures.front().torque_in_ampere;
+    const Diagnosis d =
+        diagnose(model, prepare_all(captures, o.captures.motion()), with_progress(o.output));
+    o.output.print_json(to_json(d, ampere));
+    print(o.output, d, ampere);
+}
+
+struct RefineOptions : Options {
+    std::vector<std::string> validate;
+    std::string out;
+};
+
+Json to_json(const Refinement& r, bool ampere) {
+    Json out = {{"schema", "servoid.refine/1"},
+                {"verdict", verdict_name(r.verdict)},
+                {"ladder", Json::array()}};
+    for (const Rung& rung : r.ladder)
+        out["ladder"].push_back({{"added", rung.added.empty() ? Json(nullptr) : Json(rung.added)},
+                                 {"torque_error", number(rung.torque_error)},
+                                 {"validation_error", number(rung.validation_error)}});
+    out["removed"] = r.removed;
+    out["model"] = model_json(r.result.model);
+    out["model_parameters"] = fitted_parameters(r.result, ampere);
+    out["noise_floor"] = number(r.noise_floor);
+    out["band_Hz"] = r.last.band_Hz;
+    out["advice"] = r.last.advice;
+    return out;
+}
+
+void print(const Output& out, const Refinement& r, bool ampere) {
+    const double top = r.ladder.front().torque_error;
+    for (const Rung& rung : r.ladder) {
+        const auto length = size_t(std::max(1.0, 40 * rung.torque_error / top));
+        out.line(fmt::format(
+            "{:<24} {:>8} {:>8}  {}", rung.added.empty() ? "as it was" : "+ " + rung.added,
+            percent(rung.torque_error), percent(rung.validation_error), std::string(length, '#')));
+    }
+    for (const std::string& name : r.removed)
+        out.line("- " + name + " (needless in the end)");
+    out.line(fmt::format("{:<24} {:>8}\n", "noise floor", percent(r.noise_floor)));
+    out.line(out.bold(verdict_name(r.verdict)) + "   " + r.last.advice);
+    print_parameters(out, r.result, ampere);
+}
+
+void run_refine(const RefineOptions& o) {
+    const Model model = read_model(o.model);
+    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<Capture> unseen = o.captures.read_files(o.validate, &model);
+    const bool ampere = captures.front().torque_in_ampere;
+    const Refinement r = refine(model, prepare_all(captures, o.captures.motion()),
+                                prepare_all(unseen, o.captures.motion()), with_progress(o.output));
+    if (!o.out.empty()) write_file(o.out, format_model(r.result.model));
+    o.output.print_json(to_json(r, ampere));
+    print(o.output, r, ampere);
+    if (!o.out.empty()) o.output.line("wrote " + o.out);
+}
+
+} // namespace
+
+void add_diagnose(CLI::App& app) {
+    auto o = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("diagnose", "which physical effect is missing");
+    verb->add_option("model", o->model, "model file (TOML)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    add_capture_options(*verb, o->captures);
+    add_output_options(*verb, o->output);
+    add_examples(*verb, "  servoid diagnose model.toml run.csv\n"
+                        "  servoid diagnose model.toml a.csv b.csv --json");
+    verb->callback([o] { run_diagnose(*o); });
+}
+
+void add_refine(CLI::App& app) {
+    auto o = std::make_shared<RefineOptions>();
+    CLI::App* verb =
+        app.add_subcommand("refine", "diagnose and add until nothing more is justified");
+    verb->add_option("model", o->model, "model file (TOML)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("--validate", o->validate, "captures that are never fitted");
+    verb->add_option("--out", o->out, "where the refined model is written (- for stdout)");
+    add_capture_options(*verb, o->captures);
+    add_output_options(*verb, o->output);
+    add_examples(*verb, "  servoid refine model.toml run.csv --out better.toml\n"
+                        "  servoid refine model.toml a.csv --validate b.csv --json");
+    verb->callback([o] { run_refine(*o); });
+}
+
+} // namespace servoid::cli

@@ -1,0 +1,212 @@
+#include "compare/assembly.hpp"
+
+#include "common/error.hpp"
+#include "effects/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kBlocksPerCapture = 24;
+constexpr size_t kMostCached = 400;
+
+const Effect& effect_of(const EffectTerm& term) {
+    const Effect* effect = find_effect(term.name);
+    if (!effect) throw Error(ExitCode::defect, "no such effect: " + term.name);
+    return *effect;
+}
+
+std::string key_of(const EffectTerm& term) {
+    std::string key = term.name + term.law;
+    for (const auto& [name, value] : term.parameters)
+        key += fmt::format(",{:a}", value);
+    return key;
+}
+
+// Blocks of equal length; where the move repeats, a whole number of them to a period.
+int block_at(const PreparedMotion& m, Eigen::Index k) {
+    return int(k * kBlocksPerCapture / std::max<Eigen::Index>(1, m.grid.count));
+}
+
+} // namespace
+
+bool is_friction(const std::string& effect) {
+    return effect.starts_with("viscous") || effect.starts_with("coulomb") || effect == "stribeck" ||
+           effect == "presliding";
+}
+
+std::vector<Coefficient> coefficients_of(const Model& model) {
+    std::vector<Coefficient> out = {{-1, 0, model.inertia_fixed, 0, false}};
+    for (size_t i = 0; i < model.effects.size(); ++i) {
+        const EffectTerm& term = model.effects[i];
+        const Effect& effect = effect_of(term);
+        for (int k = 0; k < effect.linear_count(); ++k) {
+            const std::string& key = effect.info().parameters[size_t(k)].key;
+            out.push_back(
+                {int(i), k, term.is_fixed(key), effect.linear_lower(k), effect.may_vanish(k)});
+        }
+    }
+    return out;
+}
+
+Vector coefficient_values(const Model& model) {
+    std::vector<double> values = {model.inertia};
+    for (const EffectTerm& term : model.effects) {
+        const Vector linear = effect_of(term).linear(term);
+        values.insert(values.end(), linear.begin(), linear.end());
+    }
+    return Eigen::Map<Vector>(values.data(), Eigen::Index(values.size()));
+}
+
+void set_coefficient_values(Model& model, const Vector& values) {
+    model.inertia = values[0];
+    Eigen::Index next = 1;
+    for (EffectTerm& term : model.effects) {
+        const Effect& effect = effect_of(term);
+        effect.set_linear(term, values.segment(next, effect.linear_count()));
+        next += effect.linear_count();
+    }
+}
+
+Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(motions) {
+    for (size_t i = 0; i < motions.size(); ++i) {
+        views_.push_back(motions[i].motion);
+        const int first = int(i) * kBlocksPerCapture;
+        for (Eigen::Index k = 0; k < motions[i].grid.count; ++k)
+            if (motions[i].used[size_t(k)]) block_.push_back(first + block_at(motions[i], k));
+    }
+}
+
+MotionView in_context(const Model& model, MotionView view) {
+    view.inertia = model.inertia;
+    view.viscous = 0;
+    view.has_constant = model.find("constant_torque") != nullptr;
+    view.friction = Vector::Zero(view.size());
+    Vector inertia = view.acceleration;
+    for (const EffectTerm& term : model.effects) {
+        const Effect& effect = effect_of(term);
+        effect.shape_inertia(term, view, inertia);
+        if (term.name == "viscous") view.viscous = term.at("coefficient");
+        if (is_friction(term.name))
+            view.friction += effect.columns(term, view) * effect.linear(term);
+    }
+    // First without the effects that depend on the torque, then what they make of that torque.
+    view.torque = model.inertia * inertia + view.friction;
+    for (const EffectTerm& term : model.effects) {
+        const Effect& effect = effect_of(term);
+        if (!is_friction(term.name) && !effect.uses_torque() && effect.linear_count() > 0)
+            view.torque += effect.columns(term, view) * effect.linear(term);
+    }
+    const Vector torque = view.torque;
+    for (int pass = 0; pass < 2; ++pass) {
+        Vector more = torque;
+        for (const EffectTerm& term : model.effects) {
+            const Effect& effect = effect_of(term);
+            if (effect.uses_torque()) more += effect.columns(term, view) * effect.linear(term);
+        }
+        view.torque = more;
+    }
+    return view;
+}
+
+void Assembler::set_context(const Model& model) {
+    for (MotionView& view : views_)
+        view = in_context(model, std::move(view));
+    // Only laws that look at the rest of the model are computed anew.
+    context_ = fmt::format("{:a}", model.inertia);
+    for (const EffectTerm& term : model.effects)
+        context_ += key_of(term);
+}
+
+Matrix Assembler::used_rows(size_t capture, const Matrix& rows) const {
+    const PreparedMotion& m = motions_[capture];
+    Matrix out(m.used_count(), rows.cols());
+    Eigen::Index row = 0;
+    for (Eigen::Index k = 0; k < rows.rows(); ++k)
+        if (m.used[size_t(k)]) out.row(row++) = rows.row(k);
+    return out;
+}
+
+namespace {
+
+void append_rows(Matrix& all, const Matrix& more) {
+    const Eigen::Index before = all.rows();
+    all.conservativeResize(before + more.rows(), more.cols());
+    all.bottomRows(more.rows()) = more;
+}
+
+} // namespace
+
+const Matrix& Assembler::columns_of(const EffectTerm& term) {
+    const Effect& effect = effect_of(term);
+    std::string key = key_of(term);
+    if (effect.depends_on_model()) key += "|" + context_;
+    auto found = cache_.find(key);
+    if (found != cache_.end()) return found->second;
+    Matrix all(0, effect.linear_count());
+    for (size_t i = 0; i < motions_.size(); ++i)
+        append_rows(all, used_rows(i, motions_[i].band_limit(effect.columns(term, views_[i]))));
+    return cache_.emplace(key, std::move(all)).first->second;
+}
+
+const Matrix& Assembler::inertia_of(const Model& model) {
+    std::string key = "inertia";
+    for (const EffectTerm& term : model.effects) {
+        const Effect& effect = effect_of(term);
+        if (effect.shapes_inertia()) key += key_of(term);
+    }
+    auto found = cache_.find(key);
+    if (found != cache_.end()) return found->second;
+    Matrix all(0, 1);
+    for (size_t i = 0; i < motions_.size(); ++i) {
+        Vector inertia = views_[i].acceleration;
+        for (const EffectTerm& term : model.effects)
+            effect_of(term).shape_inertia(term, views_[i], inertia);
+        append_rows(all, used_rows(i, motions_[i].band_limit(Matrix(inertia))));
+    }
+    return cache_.emplace(key, std::move(all)).first->second;
+}
+
+const Matrix& Assembler::torque_of(const Model& model) {
+    std::string key = "torque";
+    for (const EffectTerm& term : model.effects)
+        if (effect_of(term).delivers()) key += key_of(term);
+    auto found = cache_.find(key);
+    if (found != cache_.end()) return found->second;
+    Matrix all(0, 1);
+    for (size_t i = 0; i < motions_.size(); ++i) {
+        TorqueSignal signal = motions_[i].asked;
+        for (const EffectTerm& term : model.effects)
+            effect_of(term).deliver(term, signal);
+        append_rows(all, used_rows(i, Matrix(motions_[i].band_limit(signal))));
+    }
+    return cache_.emplace(key, std::move(all)).first->second;
+}
+
+Assembly Assembler::assemble(const Model& model) {
+    if (cache_.size() > kMostCached) cache_.clear();
+    Assembly out;
+    out.coefficients = coefficients_of(model);
+    out.block = block_;
+    out.torque = torque_of(model);
+    out.columns.resize(Eigen::Index(block_.size()), Eigen::Index(out.coefficients.size()));
+    out.columns.col(0) = inertia_of(model);
+    Eigen::Index next = 1;
+    for (const EffectTerm& term : model.effects) {
+        const int count = effect_of(term).linear_count();
+        if (count == 0) continue;
+        out.columns.middleCols(next, count) = columns_of(term);
+        next += count;
+    }
+    return out;
+}
+
+} // namespace servoid

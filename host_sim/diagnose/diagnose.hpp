@@ -1,0 +1,80 @@
+// Which physical effect is missing? Every effect of the catalogue that is not in the model is
+// fitted together with all parameters of the model, and judged on data it was not fitted to.
+#pragma once
+
+#include "compare/compare.hpp"
+#include "compare/regression.hpp"
+#include "diagnose/probe.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace servoid {
+
+enum class Verdict {
+    missing,     // the first candidate is justified by data it was not fitted to
+    ambiguous,   // two or more explain it equally; advice names what separates them
+    unknown,     // a repeatable residual that nothing in the catalogue explains
+    adequate,    // the residual is noise
+    insufficient // the capture cannot answer
+};
+const char* verdict_name(Verdict verdict);
+
+// A richer form of another effect: not a rival of it, but the same with more freedom.
+bool is_richer_form(const std::string& rich, const std::string& simple);
+
+struct Candidate {
+    std::string effect;
+    double probability = 0;
+    double error_after = NAN;                // on the data it was fitted to
+    double validation_error_after = NAN;     // on blocks it was not fitted to
+    std::vector<FittedParameter> parameters; // of the effect itself
+    std::string signature;
+    std::string note; // why it was not fitted, a parameter on its bound, an alias
+    FitResult fit;    // empty model name where it was not fitted
+    bool fitted = false;
+    bool sound = false; // fitted, every parameter determined and off its bounds
+};
+
+struct Diagnosis {
+    Verdict verdict = Verdict::insufficient;
+    FitResult before; // the model as it is, every parameter fitted again
+    double error_before = 0, validation_error_before = 0;
+    double noise_floor = 0;
+    bool floor_from_repetition = false;
+    std::vector<Candidate> candidates; // best first, every effect that was tried
+    std::vector<Probe> probes;         // what the residual depends on, catalogue or not
+    std::string advice;
+    double band_Hz = 0;
+};
+
+struct DiagnoseOptions {
+    std::function<void(const std::string& effect, double share)> progress; // may be empty
+    std::vector<std::string> only; // effects to try; empty: all
+    bool look_ahead = true; // whether what would be left after the best candidate has a name too
+};
+
+Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motions,
+                   const DiagnoseOptions& options = {});
+
+struct Rung {
+    std::string added; // empty: the model as it was
+    double torque_error = 0, validation_error = 0;
+};
+
+struct Refinement {
+    Verdict verdict = Verdict::insufficient; // of the last rung
+    std::vector<Rung> ladder;
+    std::vector<std::string> removed; // effects that a later one made needless
+    FitResult result;
+    Diagnosis last;
+    double noise_floor = 0;
+};
+
+// Adds the most probable effect until nothing more is justified. `validation` is never fitted.
+Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions,
+                  const std::vector<PreparedMotion>& validation,
+                  const DiagnoseOptions& options = {});
+
+} // namespace servoid

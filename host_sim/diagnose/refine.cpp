@@ -1,0 +1,115 @@
+#include "diagnose/add_effect.hpp"
+#include "diagnose/diagnose.hpp"
+#include "diagnose/evidence.hpp"
+#include "effects/catalogue.hpp"
+
+#include "common/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace servoid {
+
+namespace {
+
+constexpr int kMostRungs = 8;
+constexpr double kWorthAdding = 0.03; // of the held-out power of the residual
+constexpr double kLost = 0.01;        // an effect whose removal costs less is needless
+
+double held_out_error(const FitResult& fit, Assembler& assembler) {
+    const std::vector<double> power =
+        held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());
+    return std::sqrt(std::accumulate(power.begin(), power.end(), 0.0) / fit.torque.squaredNorm());
+}
+
+// On captures that were never fitted, or on blocks that were not where there are none.
+double validation_error(const FitResult& fit, Assembler& assembler,
+                        const std::vector<PreparedMotion>& validation) {
+    if (validation.empty()) return held_out_error(fit, assembler);
+    double residual = 0, torque = 0;
+    for (const PreparedMotion& m : validation) {
+        const Eigen::VectorXd r = residual_torque(fit.model, m);
+        for (Eigen::Index k = 0; k < r.size(); ++k)
+            if (m.used[size_t(k)]) residual += r[k] * r[k], torque += m.torque[k] * m.torque[k];
+    }
+    return std::sqrt(residual / torque);
+}
+
+double gain_of(const Diagnosis& d, const Candidate& c) {
+    return 1 - std::pow(c.validation_error_after / d.validation_error_before, 2);
+}
+
+// The candidate that a greedy step takes: the most probable one that is worth its parameters; its
+// simple form first where that does most of it.
+const Candidate* next_step(const Diagnosis& d) {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d.candidates)
+        if (!best && c.sound) best = &c;
+    if (!best || gain_of(d, *best) < kWorthAdding) return nullptr;
+    for (const Candidate& c : d.candidates)
+        if (c.sound && is_richer_form(best->effect, c.effect) &&
+            gain_of(d, c) > 0.8 * gain_of(d, *best))
+            return &c;
+    return best;
+}
+
+// An effect whose foundation (Coulomb friction under Stribeck's) is not in the model.
+bool leaves_orphan(const Model& model) {
+    for (const EffectTerm& term : model.effects)
+        for (const std::string& needed : find_effect(term.name)->info().needs)
+            if (!model.find(needed) && !model.find(needed + "_asymmetric")) return true;
+    return false;
+}
+
+// Effects (other than those the user gave) whose removal costs nothing on held-out data.
+void prune(Refinement& r, Assembler& assembler, size_t given) {
+    for (size_t i = r.result.model.effects.size(); i-- > given;) {
+        Model smaller = r.result.model;
+        const std::string name = smaller.effects[i].name;
+        smaller.effects.erase(smaller.effects.begin() + long(i));
+        if (leaves_orphan(smaller)) continue;
+        try {
+            const FitResult without = fit(smaller, assembler);
+            const double before = held_out_error(r.result, assembler);
+            const double after = held_out_error(without, assembler);
+            if (after * after > (1 + kLost) * before * before) continue;
+            r.result = without;
+            r.removed.push_back(name);
+        } catch (const Refusal&) {
+        }
+    }
+}
+
+} // namespace
+
+Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions,
+                  const std::vector<PreparedMotion>& validation, const DiagnoseOptions& options) {
+    Refinement r;
+    Assembler assembler(motions);
+    DiagnoseOptions step_options = options;
+    step_options.look_ahead = false;
+    r.last = diagnose(model, motions, step_options);
+    r.result = r.last.before;
+    r.ladder.push_back(
+        {"", r.result.torque_error, validation_error(r.result, assembler, validation)});
+    for (int rung = 0; rung < kMostRungs; ++rung) {
+        if (r.last.verdict == Verdict::adequate || r.last.verdict == Verdict::insufficient) break;
+        const Candidate* step = next_step(r.last);
+        if (!step) break;
+        const std::string added = step->effect;
+        const FitResult taken = step->fit;
+        const double validated = validation_error(taken, assembler, validation);
+        if (!validation.empty() && validated > 0.999 * r.ladder.back().validation_error) break;
+        r.result = taken;
+        r.ladder.push_back({added, taken.torque_error, validated});
+        r.last = diagnose(r.result.model, motions, step_options);
+    }
+    prune(r, assembler, model.effects.size());
+    r.last = diagnose(r.result.model, motions, options);
+    r.verdict = r.last.verdict;
+    r.noise_floor = r.last.noise_floor;
+    return r;
+}
+
+} // namespace servoid

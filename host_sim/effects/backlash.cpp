@@ -1,0 +1,108 @@
+// Backlash: a gap between motor and load.
+#include "effects/effect.hpp"
+#include "plant/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// The load inside a gap, dragged along a motion that is given: free between the faces, with the
+// motor's speed from the moment a face meets it (a plastic impact).
+class DraggedLoad {
+  public:
+    DraggedLoad(double gap, double position) : half_(gap / 2), position_(position) {}
+
+    double next(double motor, double motor_velocity, double step_s) {
+        position_ += velocity_ * step_s;
+        if (motor - half_ > position_)
+            meet(motor - half_, std::max(velocity_, motor_velocity));
+        else if (motor + half_ < position_)
+            meet(motor + half_, std::min(velocity_, motor_velocity));
+        return velocity_;
+    }
+
+  private:
+    void meet(double face, double velocity) {
+        position_ = face;
+        velocity_ = velocity;
+    }
+
+    double half_, position_, velocity_ = 0;
+};
+
+class Backlash : public Effect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "backlash",
+            .law = "load free inside a gap; its share of the inertia acts at either face only",
+            .signature =
+                "residual in bursts after each change of the torque's sign, where the load "
+                "is let go and caught again",
+            .reference = "Nordin, Gutman, Automatica 38, 2002; Andoh 2008, section III-F",
+            .parameters = {{"gap", Quantity::position, 0, kInf, "play between motor and load"},
+                           {"load_share", Quantity::ratio, 0, 0.999,
+                            "share of the inertia behind the gap"}},
+            .replaces = {},
+            .needs = {}};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        axis.backlash = Gap{term.at("gap"), term.at("load_share")};
+    }
+
+    int linear_count() const override { return 0; }
+    Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
+        return Eigen::MatrixXd(motion.size(), 0);
+    }
+
+    // The load's share of J times the load's acceleration instead of the motor's.
+    void shape_inertia(const EffectTerm& term, const MotionView& motion,
+                       Eigen::VectorXd& torque) const override {
+        const double share = term.at("load_share");
+        if (motion.position.size() == 0 || !(term.at("gap") > 0) || !(share > 0)) return;
+        DraggedLoad load(term.at("gap"), motion.position[0]);
+        const double h = motion.sample_time_s;
+        double before = motion.velocity[0];
+        for (Eigen::Index i = 0; i < motion.size(); ++i) {
+            const double now = load.next(motion.position[i], motion.velocity[i], h);
+            torque[i] += share * ((now - before) / h - motion.acceleration[i]);
+            before = now;
+        }
+    }
+
+    bool shapes_inertia() const override { return true; }
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        return term.at("gap") > 0.9 * motion.travel() ? "the gap is as wide as the travel" : "";
+    }
+
+    std::vector<std::string> shape_keys() const override { return {"gap", "load_share"}; }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        for (double share : {0.3, 0.1, 0.03, 0.01, 0.003})
+            for (double load : {0.4, 0.75}) {
+                EffectTerm term = blank();
+                term.parameters["gap"] = share * search.motion.travel();
+                term.parameters["load_share"] = load;
+                if (term.at("gap") > search.motion.position_quantum) out.push_back(term);
+            }
+        return out;
+    }
+    std::string cannot_show(const MotionView& motion) const override {
+        return motion.position.size() ? "" : "the position was not recorded";
+    }
+};
+
+} // namespace
+
+const Effect& backlash_effect() {
+    static const Backlash effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,72 @@
+// Cogging: a torque that the magnets or the screw repeat over the way.
+#include "effects/wave.hpp"
+#include "plant/axis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class Cogging : public WaveEffect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "cogging",
+            .law = "A·sin(nθ + φ)",
+            .signature = "residual a sine of position, whatever the speed",
+            .reference = "Holtz, Springob, IEEE TIE 43, 1996",
+            .parameters = {{"amplitude", Quantity::torque, 0, kInf, "of the sine"},
+                           {"order", Quantity::per_rev, 1e-9, kInf,
+                            "cycles per revolution or per metre"},
+                           {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
+            .replaces = {},
+            .needs = {},
+            .repeatable = true};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        const double a = term.at("amplitude"), phase = term.at("phase");
+        const double k = wave_number(term.at("order"), axis.kind);
+        axis.opposing.push_back(
+            [=](const AxisPoint& p) { return a * std::sin(k * p.position + phase); });
+    }
+
+    Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
+        if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
+        const double k = wave_number(term.at("order"), motion.kind);
+        Eigen::MatrixXd out(motion.size(), 2);
+        out.col(0) = (k * motion.position.array()).sin();
+        out.col(1) = (k * motion.position.array()).cos();
+        return out;
+    }
+
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
+        return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
+    }
+
+    std::vector<std::string> shape_keys() const override { return {"order"}; }
+    double search_price() const override { return 5; }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        const OrderScan scan{search, Eigen::VectorXcd::Ones(search.position.size()), {}};
+        for (double k : strongest_orders(scan, 3)) {
+            EffectTerm term = blank();
+            term.parameters["order"] = order_of(k, search.motion.kind);
+            out.push_back(term);
+        }
+        return out;
+    }
+};
+
+} // namespace
+
+const Effect& cogging_effect() {
+    static const Cogging effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,68 @@
+// Periodic disturbance: a fan, a pump, another axis; tied to time and not to the motion.
+#include "compare/spectrum.hpp"
+#include "effects/wave.hpp"
+#include "plant/axis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class PeriodicDisturbance : public WaveEffect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "periodic_disturbance",
+            .law = "A·sin(2πft + φ)",
+            .signature = "residual a sine of time, the same whatever the axis does",
+            .reference = "Bodson, Sacks, Khosla, IEEE TAC 39, 1994",
+            .parameters = {{"amplitude", Quantity::torque, 0, kInf, "of the sine"},
+                           {"frequency", Quantity::frequency, 1e-6, kInf, "of the sine"},
+                           {"phase", Quantity::angle, -kInf, kInf, "at the first row"}},
+            .replaces = {},
+            .needs = {},
+            .repeatable = true};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        const double a = term.at("amplitude"), phase = term.at("phase");
+        const double w = kTurn * term.at("frequency");
+        axis.opposing.push_back(
+            [=](const AxisPoint& p) { return a * std::sin(w * p.time_s + phase); });
+    }
+
+    Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
+        const double w = kTurn * term.at("frequency");
+        Eigen::MatrixXd out(motion.size(), 2);
+        out.col(0) = (w * motion.time_s.array()).sin();
+        out.col(1) = (w * motion.time_s.array()).cos();
+        return out;
+    }
+
+    std::vector<std::string> shape_keys() const override { return {"frequency"}; }
+    double search_price() const override { return 5; }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        const double length = search.time_s[search.time_s.size() - 1] - search.time_s[0];
+        const double step = search.time_s[1] - search.time_s[0];
+        for (double f : strongest_lines_Hz(search.residual, step, 3)) {
+            if (f * length < kFewestCycles) continue;
+            EffectTerm term = blank();
+            term.parameters["frequency"] = f;
+            out.push_back(term);
+        }
+        return out;
+    }
+};
+
+} // namespace
+
+const Effect& periodic_disturbance_effect() {
+    static const PeriodicDisturbance effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,70 @@
+// Stribeck friction: what must be overcome on top of Coulomb friction at low speed.
+#include "effects/direction.hpp"
+#include "effects/effect.hpp"
+#include "plant/axis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class Stribeck : public Effect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "stribeck",
+            .law = "ΔT·exp(−(v/vs)²)·sgn v, on top of Coulomb friction",
+            .signature = "residual changes sign with velocity and dies out as |v| grows",
+            .reference =
+                "Stribeck 1902; Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30, 1994",
+            .parameters = {{"extra_torque", Quantity::torque, 0, kInf,
+                            "friction at standstill above the sliding friction"},
+                           {"velocity", Quantity::velocity, 1e-9, kInf,
+                            "speed at which it has fallen to 37 %"}},
+            .replaces = {},
+            .needs = {"coulomb"}};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        const double extra = term.at("extra_torque"), vs = term.at("velocity");
+        axis.sliding_extra.push_back(
+            [=](double speed) { return extra * std::exp(-speed * speed / (vs * vs)); });
+    }
+
+    int linear_count() const override { return 1; }
+    Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
+        const double vs = term.at("velocity");
+        const Eigen::ArrayXd u = motion.velocity.array() / vs;
+        return direction(motion).array() * (-u * u).exp();
+    }
+
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        return term.at("velocity") > 0.5 * motion.top_speed()
+                   ? "it only bends the viscous line: the speed is above half the top speed"
+                   : "";
+    }
+
+    std::vector<std::string> shape_keys() const override { return {"velocity"}; }
+    // Above half the top speed it would only bend the viscous line.
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        for (double share : {0.4, 0.15, 0.06, 0.025, 0.01}) {
+            EffectTerm term = blank();
+            term.parameters["velocity"] = share * search.motion.top_speed();
+            if (term.at("velocity") > 2 * search.motion.velocity_noise) out.push_back(term);
+        }
+        return out;
+    }
+};
+
+} // namespace
+
+const Effect& stribeck_effect() {
+    static const Stribeck effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,77 @@
+// Torque ripple: the torque constant varies with position.
+#include "effects/wave.hpp"
+#include "plant/axis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class TorqueRipple : public WaveEffect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "torque_ripple",
+            .law = "delivered T·(1 + a·sin(nθ + φ))",
+            .signature = "residual a sine of position whose size follows the torque",
+            .reference = "Holtz, Springob, IEEE TIE 43, 1996; Mattavelli et al., IEEE TIA 41, 2005",
+            .parameters = {{"fraction", Quantity::ratio, 0, 0.6, "of the torque"},
+                           {"order", Quantity::per_rev, 1e-9, kInf,
+                            "cycles per revolution or per metre"},
+                           {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
+            .replaces = {},
+            .needs = {},
+            .repeatable = true};
+        return info;
+    }
+
+    const char* amplitude_key() const override { return "fraction"; }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        const double a = term.at("fraction"), phase = term.at("phase");
+        const double k = wave_number(term.at("order"), axis.kind);
+        axis.drive.ripple.push_back(
+            [=](double position) { return a * std::sin(k * position + phase); });
+    }
+
+    bool uses_torque() const override { return true; }
+    // T + a T sin(nθ+φ) = needed, so T = needed − a T sin(nθ+φ).
+    Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
+        if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
+        const double k = wave_number(term.at("order"), motion.kind);
+        Eigen::MatrixXd out(motion.size(), 2);
+        out.col(0) = -motion.torque.array() * (k * motion.position.array()).sin();
+        out.col(1) = -motion.torque.array() * (k * motion.position.array()).cos();
+        return out;
+    }
+
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
+        if (term.at("fraction") > 0.6) return "more than the torque itself";
+        return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
+    }
+
+    std::vector<std::string> shape_keys() const override { return {"order"}; }
+    double search_price() const override { return 5; }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        const OrderScan scan{search, search.torque.cast<std::complex<double>>(), {}};
+        for (double k : strongest_orders(scan, 3)) {
+            EffectTerm term = blank();
+            term.parameters["order"] = order_of(k, search.motion.kind);
+            out.push_back(term);
+        }
+        return out;
+    }
+};
+
+} // namespace
+
+const Effect& torque_ripple_effect() {
+    static const TorqueRipple effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,67 @@
+// Torque saturation: the drive cannot deliver more than its limit.
+#include "effects/effect.hpp"
+#include "plant/axis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace servoid {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class TorqueSaturation : public Effect {
+    const EffectInfo& info() const override {
+        static const EffectInfo info = {
+            .name = "torque_saturation",
+            .law = "delivered T clipped at ±limit",
+            .signature = "residual only where the asked torque is largest",
+            .reference = "Leonhard, Control of Electrical Drives, 2001",
+            .parameters = {{"limit", Quantity::torque, 1e-12, kInf, "largest torque either way"}},
+            .replaces = {},
+            .needs = {}};
+        return info;
+    }
+
+    void add_to(AxisDescription& axis, const EffectTerm& term) const override {
+        const double limit = term.at("limit");
+        axis.drive.limit = axis.drive.limit > 0 ? std::min(axis.drive.limit, limit) : limit;
+    }
+
+    int linear_count() const override { return 0; }
+    Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
+        return Eigen::MatrixXd(motion.size(), 0);
+    }
+
+    void deliver(const EffectTerm& term, TorqueSignal& torque) const override {
+        const double limit = term.at("limit");
+        torque.samples = torque.samples.cwiseMax(-limit).cwiseMin(limit);
+    }
+
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        return term.at("limit") < 0.4 * motion.torque.cwiseAbs().maxCoeff()
+                   ? "far below the torque that moved the axis"
+                   : "";
+    }
+    bool delivers() const override { return true; }
+    std::vector<std::string> shape_keys() const override { return {"limit"}; }
+    std::vector<EffectTerm> starts(const Search& search) const override {
+        std::vector<EffectTerm> out;
+        const double top = search.torque.cwiseAbs().maxCoeff();
+        for (double share : {0.95, 0.85, 0.7, 0.5}) {
+            EffectTerm term = blank();
+            term.parameters["limit"] = share * top;
+            out.push_back(term);
+        }
+        return out;
+    }
+};
+
+} // namespace
+
+const Effect& torque_saturation_effect() {
+    static const TorqueSaturation effect;
+    return effect;
+}
+
+} // namespace servoid

@@ -1,0 +1,68 @@
+#include "effects/wave.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+namespace servoid {
+
+namespace {
+
+constexpr double kStepsPerCycle = 4; // of a resolvable order
+constexpr int kMostOrders = 4000;
+
+// Share of the residual's power explained by [Re c, Im c, 1] for a complex column c.
+double explained(const Eigen::VectorXcd& column, const Eigen::VectorXd& residual) {
+    const Eigen::VectorXd re = column.real(), im = column.imag();
+    Eigen::Matrix3d gram;
+    const double n = double(residual.size());
+    gram << re.squaredNorm(), re.dot(im), re.sum(), re.dot(im), im.squaredNorm(), im.sum(),
+        re.sum(), im.sum(), n;
+    const Eigen::Vector3d moment(re.dot(residual), im.dot(residual), residual.sum());
+    const double all = moment.dot(gram.ldlt().solve(moment));
+    return all - residual.sum() * residual.sum() / n;
+}
+
+} // namespace
+
+std::vector<double> strongest_orders(const OrderScan& scan, int most) {
+    const Search& s = scan.search;
+    if (s.position.size() == 0) return {};
+    const double travel = s.position.maxCoeff() - s.position.minCoeff();
+    const double speed = s.velocity.cwiseAbs().maxCoeff();
+    if (!(travel > 0) || !(speed > 0)) return {};
+    const double step = kTurn / (kStepsPerCycle * travel);
+    const double lowest = kFewestCycles * kTurn / travel;
+    // Orders that only the slower part of the motion shows count too: up to four times what the top
+    // speed carries through the band.
+    const double highest =
+        std::min(4 * kTurn * s.motion.band_Hz / speed, lowest + kMostOrders * step);
+    const Eigen::Index n = s.position.size();
+    Eigen::VectorXcd wave(n), turn(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        wave[i] = std::polar(1.0, lowest * s.position[i]);
+        turn[i] = std::polar(1.0, step * s.position[i]);
+    }
+    std::vector<double> power, orders;
+    for (double k = lowest; k < highest; k += step) {
+        Eigen::VectorXcd column = wave.cwiseProduct(scan.weight);
+        if (scan.weight_kappa.size()) column += k * wave.cwiseProduct(scan.weight_kappa);
+        for (Eigen::Index i = 0; i < n; ++i) // what is too fast for the band is not seen
+            if (k * std::abs(s.velocity[i]) > 0.8 * kTurn * s.motion.band_Hz) column[i] = 0;
+        power.push_back(explained(column, s.residual));
+        orders.push_back(k);
+        wave = wave.cwiseProduct(turn);
+    }
+    std::vector<size_t> peaks;
+    for (size_t i = 0; i < power.size(); ++i)
+        if ((i == 0 || power[i] > power[i - 1]) &&
+            (i + 1 == power.size() || power[i] >= power[i + 1]))
+            peaks.push_back(i);
+    std::sort(peaks.begin(), peaks.end(), [&](size_t a, size_t b) { return power[a] > power[b]; });
+    std::vector<double> out;
+    for (size_t i = 0; i < peaks.size() && i < size_t(most); ++i)
+        out.push_back(orders[peaks[i]]);
+    return out;
+}
+
+} // namespace servoid

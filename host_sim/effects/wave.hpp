@@ -1,0 +1,57 @@
+// Effects that are a sine of something: two linear coefficients instead of amplitude and phase.
+//
+//   A·sin(x + φ) = (A cos φ)·sin x + (A sin φ)·cos x
+#pragma once
+
+#include "effects/effect.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace servoid {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+class WaveEffect : public Effect {
+  public:
+    int linear_count() const override { return 2; }
+    double linear_lower(int) const override { return -std::numeric_limits<double>::infinity(); }
+
+    Eigen::VectorXd linear(const EffectTerm& term) const override {
+        const double a = term.at(amplitude_key()), phase = term.at("phase");
+        return Eigen::Vector2d(a * std::cos(phase), a * std::sin(phase));
+    }
+    void set_linear(EffectTerm& term, const Eigen::VectorXd& c) const override {
+        term.parameters[amplitude_key()] = std::hypot(c[0], c[1]);
+        term.parameters["phase"] = std::atan2(c[1], c[0]);
+    }
+
+  protected:
+    virtual const char* amplitude_key() const { return "amplitude"; }
+};
+
+// Orders are per revolution of a rotary motor and per metre of a linear one; κ is in rad per unit
+// of position.
+inline double wave_number(double order, Motion kind) {
+    return kind == Motion::rotary ? order : order * kTurn;
+}
+inline double order_of(double wave_number, Motion kind) {
+    return kind == Motion::rotary ? wave_number : wave_number / kTurn;
+}
+
+// Orders (as κ) at which `pair(κ, i)` = {sine-like, cosine-like} weights explain most of the
+// residual: local maxima of the explained power over the band of κ that the travel can resolve and
+// the speed lets through. Strongest first, at most `most`.
+struct OrderScan {
+    const Search& search;
+    // Multiplies exp(iκθ) at instant i: real part and imaginary part of the weight, and one more
+    // weight that is multiplied by κ (the v² terms of an inertia that varies).
+    Eigen::VectorXcd weight, weight_kappa;
+};
+std::vector<double> strongest_orders(const OrderScan& scan, int most);
+
+// At least this many cycles in the travel, or an order is only a bend.
+constexpr double kFewestCycles = 1.5;
+
+} // namespace servoid

@@ -1,0 +1,150 @@
+#include "model/effects_toml.hpp"
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "effects/catalogue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace servoid {
+
+namespace {
+
+constexpr const char* custom_name = "custom";
+
+// One effect as it stands in the file.
+struct FoundTerm {
+    TomlView table;
+    const Effect* effect;
+    EffectTerm term;
+};
+
+std::vector<std::string> catalogue_names() {
+    std::vector<std::string> names;
+    for (const Effect* effect : catalogue())
+        names.push_back(effect->info().name);
+    return names;
+}
+
+void check_bounds(const TomlView& table, const ParameterInfo& parameter, double value) {
+    if (value >= parameter.lower && value <= parameter.upper) return;
+    std::string allowed = std::isfinite(parameter.lower)
+                              ? "at least " + format_number(parameter.lower)
+                              : "at most " + format_number(parameter.upper);
+    if (std::isfinite(parameter.lower) && std::isfinite(parameter.upper))
+        allowed = format_number(parameter.lower) + " to " + format_number(parameter.upper);
+    table.fail(parameter.key, table.full(parameter.key) + " = " + format_number(value) +
+                                  " is out of bounds; expected " + allowed);
+}
+
+EffectTerm read_term(const TomlView& table, const EffectInfo& info) {
+    std::vector<std::string> keys;
+    for (const auto& parameter : info.parameters)
+        keys.push_back(parameter.key);
+    auto known = keys;
+    known.emplace_back("fixed");
+    table.allow_only(known);
+
+    EffectTerm term;
+    term.name = info.name;
+    for (const auto& parameter : info.parameters) {
+        const double value = table.number(parameter.key);
+        check_bounds(table, parameter, value);
+        term.parameters[parameter.key] = value;
+    }
+    term.fixed = read_fixed(table, keys);
+    return term;
+}
+
+EffectTerm read_custom(const TomlView& table, const std::string& name) {
+    table.allow_only({"law", "parameters", "fixed"});
+    EffectTerm term;
+    term.name = std::string(custom_name) + "." + name;
+    term.law = table.text("law");
+    std::vector<std::string> keys;
+    if (table.has("parameters")) {
+        const TomlView parameters = table.table("parameters");
+        keys = parameters.keys();
+        for (const auto& key : keys)
+            term.parameters[key] = parameters.number(key);
+    }
+    term.fixed = read_fixed(table, keys);
+    return term;
+}
+
+void read_customs(const TomlView& customs, const Effect* effect, std::vector<FoundTerm>& found) {
+    for (const auto& name : customs.keys()) {
+        const TomlView table = customs.table(name);
+        found.push_back({table, effect, read_custom(table, name)});
+    }
+}
+
+void read_array(const TomlView& effects, const Effect* effect, std::vector<FoundTerm>& found) {
+    const std::string& name = effect->info().name;
+    const toml::array& array = *effects.raw().get(name)->as_array();
+    if (!effect->info().repeatable)
+        effects.fail(name, "[[" + effects.full(name) + "]]: " + name +
+                               " can be in a model only once; write it as a table [" +
+                               effects.full(name) + "]");
+    for (const auto& element : array) {
+        if (!element.is_table())
+            effects.fail(name, effects.full(name) + " must hold tables, not " + kind_of(element));
+        const TomlView table(*element.as_table(), effects.file(), effects.full(name));
+        found.push_back({table, effect, read_term(table, effect->info())});
+    }
+}
+
+void read_one(const TomlView& effects, const std::string& name, std::vector<FoundTerm>& found) {
+    const Effect* effect = find_effect(name);
+    if (!effect)
+        effects.fail(name,
+                     "unknown effect " + in_quotes(name) + suggestion(name, catalogue_names()));
+    if (effects.raw().get(name)->is_array()) return read_array(effects, effect, found);
+    const TomlView table = effects.table(name);
+    if (name == custom_name) return read_customs(table, effect, found);
+    found.push_back({table, effect, read_term(table, effect->info())});
+}
+
+// Whether the terms may stand together; each is asked as if it were added last.
+void check_together(const std::vector<FoundTerm>& found, const Model& model) {
+    for (size_t i = 0; i < found.size(); ++i) {
+        Model others = model;
+        others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(i));
+        const std::string reason = cannot_add(*found[i].effect, others);
+        if (!reason.empty())
+            found[i].table.fail("[" + found[i].table.path() +
+                                "] cannot be in this model: " + reason);
+    }
+}
+
+} // namespace
+
+std::vector<std::string> read_fixed(const TomlView& table,
+                                    const std::vector<std::string>& parameters) {
+    const auto fixed = table.texts("fixed");
+    std::set<std::string> seen;
+    for (const auto& key : fixed) {
+        if (std::find(parameters.begin(), parameters.end(), key) == parameters.end())
+            table.fail("fixed", table.full("fixed") + " names " + in_quotes(key) +
+                                    ", which is no parameter here" + suggestion(key, parameters));
+        if (!seen.insert(key).second)
+            table.fail("fixed", table.full("fixed") + " names " + in_quotes(key) + " twice");
+    }
+    return fixed;
+}
+
+void read_effects(const TomlView& effects, Model& model) {
+    std::vector<FoundTerm> found;
+    for (const auto& name : effects.keys())
+        read_one(effects, name, found);
+    std::stable_sort(found.begin(), found.end(), [](const FoundTerm& a, const FoundTerm& b) {
+        return a.table.raw().source().begin < b.table.raw().source().begin;
+    });
+    for (const auto& entry : found)
+        model.effects.push_back(entry.term);
+    check_together(found, model);
+}
+
+} // namespace servoid

@@ -1,0 +1,132 @@
+// The JSON that users script against: the schema of every verb and the keys that stay.
+#include "cli/run_program.hpp"
+
+#include <cmath>
+
+using namespace servoid::cli_test;
+
+namespace {
+
+const std::string move = "trapezoid:stroke=6.28,velocity=40,acceleration=1500,cycles=4";
+
+void expect_keys(const Json& json, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys)
+        EXPECT_TRUE(json.contains(key)) << key;
+}
+
+void expect_parameter(const Json& json, const std::string& unit) {
+    expect_keys(json, {"value", "std", "unit"});
+    EXPECT_TRUE(json.at("value").is_number());
+    EXPECT_TRUE(json.at("std").is_number());
+    EXPECT_EQ(json.at("unit"), unit);
+}
+
+TEST(Json, Identify) {
+    const Folder folder;
+    const std::string csv = simulated(folder, example("system1.toml"), "sine", "a.csv");
+    const Ended ended = run({"identify", csv, "--frequency", "100", "--json"});
+    const Json json = json_of(ended);
+    EXPECT_EQ(ended.err, "");
+    EXPECT_EQ(json.at("schema"), "servoid.identify/1");
+    expect_parameter(json.at("inertia"), "kg·m²");
+    expect_parameter(json.at("viscous"), "N·m·s/rad");
+    expect_keys(json, {"position_amplitude", "torque_amplitude"});
+    EXPECT_NEAR(json.at("inertia").at("value").get<double>(), 0.116e-4, 0.015 * 0.116e-4);
+    EXPECT_EQ(json.at("frequency_Hz"), 100.0);
+    EXPECT_EQ(json.at("window").at("first_period"), 8);
+    EXPECT_EQ(json.at("window").at("last_period"), 10);
+    EXPECT_EQ(json.at("status"), "ok");
+}
+
+TEST(Json, Compare) {
+    const Folder folder;
+    const std::string csv = simulated(folder, example("system1.toml"), move, "a.csv");
+    const Json json = json_of(run({"compare", example("system1.toml"), csv, "--json"}));
+    EXPECT_EQ(json.at("schema"), "servoid.compare/1");
+    for (const char* key :
+         {"torque_error", "noise_floor", "repeatable_share", "samples", "duration_s", "band_Hz"})
+        EXPECT_TRUE(json.at(key).is_number()) << key;
+    for (const char* key : {"torque_error", "position_error"})
+        EXPECT_TRUE(json.at("loop").at(key).is_number()) << key;
+    ASSERT_FALSE(json.at("where").empty());
+    for (const Json& regime : json.at("where")) {
+        EXPECT_TRUE(regime.at("regime").is_string());
+        EXPECT_TRUE(regime.at("residual_share").is_number());
+        EXPECT_TRUE(regime.at("sample_share").is_number());
+    }
+}
+
+TEST(Json, CompareHasNoLoopWithoutAController) {
+    const Folder folder;
+    const std::string csv = simulated(folder, example("system1.toml"), move, "a.csv");
+    std::ofstream(folder / "plain.toml")
+        << "name = \"plain\"\nmotion = \"rotary\"\n[plant]\ninertia = 0.116e-4\n";
+    const Json json =
+        json_of(run({"compare", folder / "plain.toml", csv, "--json", "--band", "60"}));
+    EXPECT_TRUE(json.at("loop").is_null());
+    EXPECT_EQ(json.at("band_Hz"), 60);
+}
+
+TEST(Json, Add) {
+    const Folder folder;
+    const std::string csv = simulated(folder, example("system1.toml"), move, "a.csv");
+    const Json json =
+        json_of(run({"add", "constant_torque", example("system1.toml"), csv, "--json"}));
+    EXPECT_EQ(json.at("schema"), "servoid.add/1");
+    EXPECT_EQ(json.at("effect"), "constant_torque");
+    EXPECT_LE(json.at("error_after").get<double>(), json.at("error_before").get<double>());
+    EXPECT_TRUE(json.at("model").at("effects").contains("constant_torque"));
+    EXPECT_EQ(json.at("model").at("motion"), "rotary");
+    expect_parameter(json.at("model_parameters").at("inertia"), "kg·m²");
+    expect_parameter(json.at("model_parameters").at("coulomb.torque"), "N·m");
+}
+
+TEST(Json, Sweep) {
+    const Ended ended = run({"sweep", example("system2.toml"), "--json"});
+    const Json json = json_of(ended);
+    EXPECT_EQ(json.at("schema"), "servoid.sweep/1");
+    ASSERT_EQ(json.at("points").size(), 20u);
+    for (const Json& point : json.at("points"))
+        for (const char* key : {"frequency_Hz", "position_amplitude", "torque_amplitude",
+                                "torque_percent_of_rated", "inertia", "error_percent"})
+            EXPECT_TRUE(point.at(key).is_number()) << key;
+    expect_parameter(json.at("inertia_corrected"), "kg·m²");
+}
+
+TEST(Json, Friction) {
+    const Folder folder;
+    const std::string csv = simulated(folder, example("system1.toml"), "speeds:count=4", "a.csv");
+    const Json json = json_of(run({"friction", csv, "--json"}));
+    EXPECT_EQ(json.at("schema"), "servoid.friction/1");
+    expect_parameter(json.at("viscous"), "N·m·s/rad");
+    expect_parameter(json.at("coulomb"), "N·m");
+    expect_parameter(json.at("constant_torque"), "N·m");
+    EXPECT_EQ(json.at("runs").size(), 8u);
+    for (const Json& one : json.at("runs")) {
+        EXPECT_EQ(one.at("file"), csv);
+        for (const char* key : {"velocity", "torque", "residual"})
+            EXPECT_TRUE(one.at(key).is_number()) << key;
+    }
+    EXPECT_NEAR(json.at("coulomb").at("value").get<double>(), 6.6e-3, 0.01 * 6.6e-3);
+    EXPECT_NEAR(json.at("viscous").at("value").get<double>(), 0.75e-4, 0.03 * 0.75e-4);
+}
+
+TEST(Json, SimulateAndEffects) {
+    const Folder folder;
+    const Json done = json_of(run({"simulate", example("system1.toml"), "--experiment", "sine",
+                                   "--seed", "7", "--out", folder / "a.csv", "--json"}));
+    EXPECT_EQ(done.at("schema"), "servoid.simulate/1");
+    EXPECT_EQ(done.at("samples"), 800);
+    EXPECT_EQ(done.at("seed"), 7);
+    const Json all = json_of(run({"effects", "--json"}));
+    EXPECT_EQ(all.at("schema"), "servoid.effects/1");
+    EXPECT_GE(all.at("effects").size(), 5u);
+    for (const Json& effect : all.at("effects"))
+        expect_keys(effect, {"name", "law", "signature", "reference", "parameters"});
+    const Json one = json_of(run({"effects", "coulomb", "--json"}));
+    EXPECT_EQ(one.at("name"), "coulomb");
+    EXPECT_EQ(one.at("parameters").at(0).at("unit_rotary"), "N·m");
+    EXPECT_EQ(one.at("parameters").at(0).at("unit_linear"), "N");
+}
+
+} // namespace

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# tools/demo-story without measured data: from another folder, to its end, with an error that falls to
+# the noise floor.
+set -euo pipefail
+source_dir=$(realpath "${SERVOID_SOURCE_DIR:-$(dirname "$0")/../..}")
+program=$(realpath "${SERVOID_PROGRAM:?path of the built program}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+ln -s "$program" program
+SERVOID_DATA_DIR=none "$source_dir/tools/demo-story" ./program story >text
+for line in '^No measured data|^== No measured data' '^  no friction ' '^  \+ viscous ' '^  \+ coulomb ' \
+    '^  noise floor ' '^What remains, ' '^\$ servoid diagnose '; do
+    grep -qE "$line" text || { echo "not in the demo's text: $line"; cat text; exit 1; }
+done

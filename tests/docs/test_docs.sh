@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# The documentation, run: every fenced block of README.md, DESIGN.md, SPEC.md, docs/*.md and
+# boards/*/README.md that a reader would paste into a shell.
+#
+#   SERVOID_PROGRAM=... tests/docs/test_docs.sh [--measured]
+#
+# What a ```sh block is for stands behind `sh`:
+#   runnable       run with `bash -eu` in an empty folder that holds examples/, one folder a document,
+#                  its blocks in order; the program is on the PATH as `servoid`
+#   measured       the same, and only where the measured data are (SERVOID_DATA_DIR, default
+#                  ../shared/data): run by `--measured`
+#   exit=N         with one of these: the block ends with status N
+#   elsewhere      not run (it installs, builds or mounts); a `./command` in it must be there
+# A ```c block marked `compiles` goes through the compiler with every warning. A block of neither kind
+# is an error, and so are a link to a file that is not there and a document without any.
+set -euo pipefail
+export LC_ALL=C
+source_dir=$(realpath "${SERVOID_SOURCE_DIR:-$(dirname "$0")/../..}")
+program=$(realpath "${SERVOID_PROGRAM:?path of the built program}")
+export SERVOID_DATA_DIR
+SERVOID_DATA_DIR=$(realpath -m "${SERVOID_DATA_DIR:-$source_dir/../shared/data}")
+kind=runnable
+[ "${1-}" != --measured ] || kind=measured
+if [ $kind = measured ] && [ ! -d "$SERVOID_DATA_DIR/emps" ]; then
+    echo "skipped: no data in $SERVOID_DATA_DIR"
+    exit 0
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/bin"
+ln -s "$program" "$work/bin/servoid"
+PATH=$work/bin:$PATH
+failed=0 ran=0
+
+fail() { # WHERE WHAT [LOG]
+    echo "$1: $2"
+    [ -z "${3-}" ] || tail -n 20 "$3" | sed 's/^/    /'
+    failed=$((failed + 1))
+}
+
+# The fenced blocks of a document, a file each: LINE.info, LINE.text.
+extract() { # DOCUMENT FOLDER
+    awk -v folder="$2" '
+        /^ *```/ && !inside { inside = 1; at = folder "/" NR; sub(/^ *```/, ""); print >(at ".info")
+                              printf "" >(at ".text"); next }
+        /^ *```/ { inside = 0; close(at ".text"); next }
+        inside { print >(at ".text") }
+        END { if (inside) exit 1 }' "$1" || fail "$1" "a fence is not closed"
+}
+
+run_block() { # WHERE INFO SCRIPT FOLDER
+    local wanted=0 status=0 log=$work/log
+    [[ ! " $2 " =~ \ exit=([0-9]+)\  ]] || wanted=${BASH_REMATCH[1]}
+    (cd "$4" && timeout 120 bash -eu "$3") >"$log" 2>&1 </dev/null || status=$?
+    ran=$((ran + 1))
+    [ $status -eq "$wanted" ] || fail "$1" "exit $status, $wanted was expected" "$log"
+}
+
+compile_block() { # WHERE SCRIPT
+    local log=$work/log
+    ran=$((ran + 1))
+    "${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I"$source_dir/include" -fsyntax-only -x c "$2" \
+        >"$log" 2>&1 || fail "$1" "does not compile" "$log"
+}
+
+commands_exist() { # WHERE SCRIPT
+    local command
+    for command in $(grep -oE '^\./[^ ]+' "$2" || true); do
+        [ -x "$source_dir/$command" ] || fail "$1" "there is no $command"
+    done
+}
+
+block() { # WHERE INFO SCRIPT FOLDER
+    case "$2 " in
+    "sh runnable "*) [ $kind != runnable ] || run_block "$@" ;;
+    "sh measured "*) [ $kind != measured ] || run_block "$@" ;;
+    "sh elsewhere "*) commands_exist "$1" "$3" ;;
+    "c compiles "*) [ $kind != runnable ] || compile_block "$1" "$3" ;;
+    "sh "* | "bash "* | "c ") fail "$1" "\`\`\`$2: not marked (see tests/docs/test_docs.sh)" ;;
+    esac
+}
+
+links() { # DOCUMENT: what [text](file) and ![text](file) point at
+    local target
+    for target in $(grep -oE '\]\([^)# ]+' "$1" | grep -v '(https*:' | sed 's/^](//' || true); do
+        [ -e "$(dirname "$1")/$target" ] || fail "$1" "the link to $target leads nowhere"
+    done
+}
+
+for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/*/README.md; do
+    cd "$source_dir"
+    [ -f "$document" ] || continue
+    blocks=$work/blocks/$document folder=$work/folder/$document
+    mkdir -p "$blocks" "$folder"
+    cp -r examples "$folder/"
+    extract "$document" "$blocks"
+    links "$document"
+    for info in $(find "$blocks" -name '*.info' | sort -V); do
+        text=${info%.info}.text
+        block "$document:$(basename "$info" .info)" "$(cat "$info")" "$text" "$folder"
+    done
+done
+
+echo "$ran blocks run, $failed failed"
+((failed == 0 && ran > 0))
