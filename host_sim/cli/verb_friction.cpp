@@ -40,7 +40,7 @@ Json to_json(const FrictionResult& r, const Units& u) {
                 {"constant_torque", estimate(r.constant_torque, u.torque)}};
     for (const auto& [name, side] : {std::pair{"forward", &r.forward}, {"reverse", &r.reverse}})
         out[name] = {{"viscous", estimate(side->viscous, u.viscous)},
-                     {"coulomb", estimate(side->offset, u.torque)},
+                     {"offset", estimate(side->offset, u.torque)},
                      {"runs", side->runs}};
     out["runs"] = Json::array();
     for (const SpeedRun& run : r.runs) {

@@ -48,16 +48,21 @@ Json to_json(const Identification& one, const Capture& capture) {
             {"status", one.reason == SID_OK ? "ok" : sid_reason_text(one.reason)}};
 }
 
+// "± 0.01", or why there is no such number.
+std::string spread(double std) {
+    return std::isfinite(std) ? fmt::format("± {:.2g}", std) : "(spread unknown: too few periods)";
+}
+
 void print(const Output& out, const Identification& one, const Capture& capture) {
     const Motion motion = motion_of(capture);
     const auto unit = [&](Quantity q) { return unit_of(q, motion, capture.torque_in_ampere); };
-    out.line(fmt::format("inertia          {} ± {:.2g} {}",
-                         out.bold(fmt::format("{:.5g}", one.inertia.value)), one.inertia.std,
-                         unit(Quantity::inertia)));
-    out.line(fmt::format("viscous          {:.5g} ± {:.2g} {}", one.viscous.value, one.viscous.std,
-                         unit(Quantity::viscous)));
-    out.line(fmt::format("constant torque  {:.5g} ± {:.2g} {}", one.constant_torque.value,
-                         one.constant_torque.std, unit(Quantity::torque)));
+    out.line(fmt::format("inertia          {} {} {}",
+                         out.bold(fmt::format("{:.5g}", one.inertia.value)),
+                         spread(one.inertia.std), unit(Quantity::inertia)));
+    out.line(fmt::format("viscous          {:.5g} {} {}", one.viscous.value,
+                         spread(one.viscous.std), unit(Quantity::viscous)));
+    out.line(fmt::format("constant torque  {:.5g} {} {}", one.constant_torque.value,
+                         spread(one.constant_torque.std), unit(Quantity::torque)));
     out.line(fmt::format("at {:.5g} Hz: {:.4g} {} and {:.4g} {} of amplitude, periods {:.4g} to "
                          "{:.4g}",
                          one.frequency_Hz, one.position_amplitude, unit(Quantity::position),
@@ -109,7 +114,8 @@ void add_identify(CLI::App& app) {
     verb->add_option("--model", o->model,
                      "model file: its scales, and its Coulomb friction is taken out of the answer");
     verb->add_option("--frequency", o->frequencies, "Hz, one or more (else found)");
-    verb->add_option("--window", o->window, "FIRST LAST: periods after the start (else 8 10)")
+    verb->add_option("--window", o->window,
+                     "FIRST LAST: periods after the start (else 8 10, or the last two there are)")
         ->expected(2);
     verb->add_option("--method", o->method,
                      "trend under the sine: cubic, quadratic, linear, constant, or plain dft")

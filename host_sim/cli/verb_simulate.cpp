@@ -1,5 +1,6 @@
 // servoid simulate: a capture of the simulated drive.
 #include "cli/app.hpp"
+#include "common/error.hpp"
 #include "common/file.hpp"
 #include "plant/simulate.hpp"
 
@@ -18,6 +19,8 @@ struct Options {
 };
 
 void run_simulate(const Options& o) {
+    if (o.out.ends_with(".log"))
+        throw UsageError("--out: candump logs are not written yet; expected a .csv file or -");
     const Model model = read_model(o.model);
     const Capture capture = simulate(model, parse_experiment(o.experiment), o.seed);
     write_file(o.out, format_capture_csv(capture));

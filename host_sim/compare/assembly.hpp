@@ -38,6 +38,7 @@ class Assembler {
     // Tells laws that change others (a drift of friction, an inertia that varies) what the rest of
     // the model says now.
     void set_context(const Model& model);
+    double asked_norm() { return torque_of(Model{}).norm(); }
     const std::vector<int>& blocks() const { return block_; }
     // The motions as the laws see them in the present context.
     const std::vector<MotionView>& views() const { return views_; }

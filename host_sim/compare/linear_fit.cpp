@@ -90,6 +90,7 @@ LinearFit solve(const LinearProblem& p) {
 }
 
 Matrix block_covariance(const Matrix& x, const Vector& residual, const std::vector<int>& block) {
+    if (x.cols() == 0) return Matrix(0, 0);
     const int blocks = block.empty() ? 0 : block.back() + 1;
     const Vector scale = x.colwise().norm().cwiseMax(1e-300).cwiseInverse();
     const Matrix scaled = x * scale.asDiagonal();

@@ -141,7 +141,12 @@ void refuse_if_short(const PreparedMotion& prepared) {
 void refuse_if_still(const PreparedMotion& prepared) {
     const double top = prepared.motion.velocity.cwiseAbs().maxCoeff();
     const auto used = prepared.used_count();
-    if (top > 5 * prepared.motion.velocity_noise && used >= 16) return;
+    // A position that never changes still has the rounding of its own numbers.
+    const Vector& position = prepared.motion.position;
+    const double rounding =
+        position.size() ? 1e-10 * position.cwiseAbs().maxCoeff() / prepared.motion.sample_time_s
+                        : 0;
+    if (top > 5 * prepared.motion.velocity_noise + rounding && used >= 16) return;
     throw Refusal(prepared.capture->path + ": the axis does not move",
                   "a periodic move in both directions, well above the encoder's resolution");
 }

@@ -16,6 +16,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
+
 // A shape parameter that the fit may move.
 struct Shape {
     size_t term;
@@ -59,7 +61,9 @@ State evaluate(const Model& model, Assembler& assembler) {
         solve({s.assembly.columns, s.assembly.torque, coefficient_values(model), fixed, lower});
     s.residual = s.assembly.torque - s.assembly.columns * s.linear.values;
     s.error = s.residual.norm() / std::max(1e-300, s.assembly.torque.norm());
-    if (s.linear.solved)
+    // A limit or a gain that lets no torque through explains everything and nothing.
+    const bool delivers = s.assembly.torque.norm() > kLeastDelivered * assembler.asked_norm();
+    if (s.linear.solved && delivers)
         set_coefficient_values(s.model, s.linear.values);
     else
         s.error = INFINITY;
@@ -143,6 +147,26 @@ void refuse_if_alike(const State& s) {
     }
     throw Refusal("the capture cannot tell these apart: " + names,
                   "a move in both directions with several speeds and accelerations");
+}
+
+bool is_free(const Model& model, const std::string& prefix) {
+    return std::any_of(model.effects.begin(), model.effects.end(), [&](const EffectTerm& term) {
+        return term.name.starts_with(prefix) && term.fixed.empty();
+    });
+}
+
+// On one-way motion Coulomb friction and a constant torque are the same thing.
+void refuse_one_way(const Model& model, const std::vector<PreparedMotion>& motions) {
+    if (!is_free(model, "coulomb") || !is_free(model, "constant_torque")) return;
+    double forward = 0, reverse = 0;
+    for (const PreparedMotion& m : motions)
+        for (Eigen::Index k = 0; k < m.velocity.size(); ++k)
+            if (m.used[size_t(k)])
+                (m.velocity[k] > 0 ? forward : reverse) += std::abs(m.velocity[k]) * m.grid.step_s;
+    if (std::min(forward, reverse) > 0.02 * std::max(forward, reverse)) return;
+    throw Refusal("the axis moves one way only: Coulomb friction and a constant torque cannot be "
+                  "told apart",
+                  "the same move in both directions, or fix one of them in the model");
 }
 
 // All numbers that were fitted, as one vector: free coefficients, then shapes.
@@ -276,6 +300,7 @@ double linear_error(const Model& model, Assembler& assembler) {
 }
 
 FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options) {
+    refuse_one_way(model, assembler.motions());
     assembler.set_context(model);
     State s = evaluate(model, assembler);
     refuse_if_alike(s);

@@ -58,7 +58,7 @@ std::string advice_for(const Diagnosis& d) {
         return d.probes.empty()
                    ? "the residual repeats, and nothing in the catalogue explains it"
                    : fmt::format("nothing in the catalogue explains the residual; a function of {} "
-                                 "explains {:.0f} % of what is left: write it as a custom law",
+                                 "explains {:.0f} % of what is left",
                                  d.probes[0].name, 100 * d.probes[0].explained);
     case Verdict::adequate:
         return "the residual is noise: nothing more can be learnt from it";

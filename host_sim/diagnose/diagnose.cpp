@@ -21,8 +21,12 @@ using Vector = Eigen::VectorXd;
 constexpr double kSure = 0.9;          // probability from which one candidate stands alone
 constexpr double kLeastGain = 0.03;    // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15;    // times the floor: the residual is noise
-constexpr double kProbeExplains = 0.4; // of what is left: something depends on that variable
+constexpr double kProbeExplains = 0.6; // of what is left: something depends on that variable
 constexpr double kMaterial = 0.04; // of the power removed: less than that left is no second cause
+
+// Laws are fitted to a motion that was measured and smoothed: two that come this near each other
+// are told apart by more than the number of samples.
+constexpr double kMostCount = 150;
 
 double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -65,7 +69,7 @@ bool is_harmonic(const Candidate& c, const std::vector<PreparedMotion>& motions)
         if (!m.period_s) return false;
         const double cycles = c.fit.model.effects.back().at("frequency") * *m.period_s;
         const double periods = double(m.grid.count) * m.grid.step_s / *m.period_s;
-        if (std::abs(cycles - std::round(cycles)) > 0.5 / periods) return false;
+        if (std::abs(cycles - std::round(cycles)) > 0.25 / periods) return false;
     }
     return true;
 }
@@ -98,6 +102,8 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before,
             effect.implausible(c.fit.model.effects.back(), assembler.views().front());
         !why.empty())
         c.note = why;
+    if (c.fit.torque.norm() < 0.7 * before.torque.norm())
+        c.note = "far less torque than moved the axis";
     if (is_harmonic(c, assembler.motions()))
         c.note = "a harmonic of the repeated move: another period shows it";
     if (c.error_after >= before.torque_error) c.note = "it does not help";
@@ -157,12 +163,26 @@ double log_evidence(const FitResult& fit, double error, double count, double pri
     return -count * std::log(error) - 0.5 * fit.free_parameters * std::log(count) - price;
 }
 
+// Asymmetric Coulomb friction is Coulomb friction and a constant torque: where both explain the
+// residual about as well, the simpler name wins.
+void prefer_simple_names(const Diagnosis& d, std::vector<double>& evidence) {
+    size_t rich = d.candidates.size(), simple = rich;
+    for (size_t i = 0; i < d.candidates.size(); ++i) {
+        if (d.candidates[i].effect == "coulomb_asymmetric") rich = i;
+        if (d.candidates[i].effect == "constant_torque" && d.candidates[i].sound) simple = i;
+    }
+    if (rich == d.candidates.size() || simple == d.candidates.size()) return;
+    const double a = d.candidates[simple].validation_error_after;
+    if (a < 1.1 * d.candidates[rich].validation_error_after)
+        evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
+}
+
 void set_probabilities(Diagnosis& d) {
     const Candidate* best = nullptr;
     for (const Candidate& c : d.candidates)
         if (c.sound && (!best || c.error_after < best->error_after)) best = &c;
     if (!best) return;
-    const double count = effective_count(best->fit.residual);
+    const double count = std::min(kMostCount, effective_count(best->fit.residual));
     const double floor = 0.3 * d.noise_floor; // an error below the noise is luck, not evidence
     double none = log_evidence(d.before, std::max(floor, d.error_before), count, 0);
     double top = none;
@@ -173,8 +193,10 @@ void set_probabilities(Diagnosis& d) {
             v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count,
                              find_effect(c.effect)->search_price());
         value.push_back(v);
-        top = std::max(top, v);
     }
+    prefer_simple_names(d, value);
+    for (double v : value)
+        top = std::max(top, v);
     double all = std::exp(none - top);
     for (double v : value)
         all += std::exp(v - top);
@@ -203,7 +225,7 @@ double family_probability(const Diagnosis& d) {
 bool unexplained(const Diagnosis& d, const Candidate& best, Assembler& assembler,
                  std::vector<Probe>& probes) {
     const double after = best.validation_error_after, before = d.validation_error_before;
-    if (after < 1.5 * d.noise_floor) return false;
+    if (after < 2 * d.noise_floor) return false;
     const double removed = before * before - after * after;
     if (after * after < kMaterial * removed) return false;
     probes = probe_residual(best.fit, assembler);

@@ -13,7 +13,6 @@ using Vector = Eigen::VectorXd;
 
 std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
                                    const std::vector<int>& block) {
-    const int blocks = block.empty() ? 0 : block.back() + 1;
     const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
     const Eigen::Index p = slopes.cols();
     std::vector<double> out;
@@ -35,9 +34,8 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
         gram += parts.back().gram, moment += parts.back().moment;
         row = end;
     }
-    (void)blocks;
     // A touch of ridge: a block may be the only one that shows a column.
-    const double ridge = 1e-9 * std::max(1e-300, gram.diagonal().maxCoeff());
+    const double ridge = p > 0 ? 1e-9 * std::max(1e-300, gram.diagonal().maxCoeff()) : 0;
     for (const Part& part : parts) {
         Matrix rest = gram - part.gram;
         rest.diagonal().array() += ridge;

@@ -49,9 +49,10 @@ Vector start(const Vector& x, const Vector& j, const Vector& weight, Eigen::Inde
 }
 
 // Gauss-Newton with step halving; 0 ≤ b ≤ a < 0.9 keeps the poles above the sweep.
-Fit solve(const Vector& x, const Vector& j, const Vector& weight, Eigen::Index unknowns) {
+Fit descend(const Vector& x, const Vector& j, const Vector& weight, const Vector& from) {
+    const Eigen::Index unknowns = from.size();
     Fit fit;
-    fit.p = start(x, j, weight, unknowns);
+    fit.p = from;
     const auto miss = [&](const Vector& p) {
         return (law(x, p) - j).cwiseProduct(weight).squaredNorm();
     };
@@ -74,6 +75,21 @@ Fit solve(const Vector& x, const Vector& j, const Vector& weight, Eigen::Index u
     const Matrix s = weight.asDiagonal() * slopes(x, fit.p);
     fit.covariance = (s.transpose() * s).completeOrthogonalDecomposition().pseudoInverse();
     return fit;
+}
+
+// a = b is a ridge on which the two cannot be told apart and a descent stays: several starts beside
+// it.
+Fit solve(const Vector& x, const Vector& j, const Vector& weight, Eigen::Index unknowns) {
+    const Vector first = start(x, j, weight, unknowns);
+    Fit best = descend(x, j, weight, first);
+    for (const double a : {0.05, 0.2, 0.5}) {
+        if (unknowns < 3) break;
+        Vector from = first;
+        from[1] = a, from[2] = 0.4 * a;
+        const Fit fit = descend(x, j, weight, from);
+        if (fit.chi2 < best.chi2) best = fit;
+    }
+    return best;
 }
 
 } // namespace

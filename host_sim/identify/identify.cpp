@@ -67,14 +67,22 @@ std::vector<double> frequencies(const Capture& capture, const IdentifyOptions& o
 }
 
 // The window in periods: what was asked for, the paper's 8th to 10th, or the last two there are.
-void choose_periods(const Capture& capture, const IdentifyOptions& options, Identification& out) {
+// Returns whether the frequency is one line of a move of many.
+bool choose_periods(const Capture& capture, const IdentifyOptions& options, Identification& out) {
     const double length_s = double(capture.rows()) * capture.sample_time_s;
     // A record of ten periods is up to half a row short of them.
     const double rounding = 0.5 * capture.sample_time_s * out.frequency_Hz + 1e-6;
     const double periods = length_s * out.frequency_Hz + rounding;
     const double whole = std::floor(periods);
-    out.last_period = options.last_period.value_or(whole >= 10 ? 10 : whole);
-    out.first_period = options.first_period.value_or(std::max(0.0, out.last_period - 2));
+    const double usual = whole >= 10 ? 10 : whole;
+    // A line of a move of many lines: the others fall out over whole periods of the move only.
+    const double move = capture.period_s.value_or(0) * out.frequency_Hz;
+    const bool line_of_many = move > 1.5 && move <= whole;
+    out.last_period =
+        options.last_period.value_or(line_of_many ? std::floor(whole / move + 1e-6) * move : usual);
+    out.first_period = options.first_period.value_or(
+        std::max(0.0, out.last_period -
+                          (line_of_many ? std::min(2.0, std::floor(whole / move)) * move : 2)));
     if (whole < 1)
         throw Refusal(fmt::format("{}: {:.3g} s hold less than one period of {:.4g} Hz",
                                   capture.path, length_s, out.frequency_Hz),
@@ -86,6 +94,7 @@ void choose_periods(const Capture& capture, const IdentifyOptions& options, Iden
                                   "{:.4g}",
                                   capture.path, out.last_period, periods),
                       "a longer capture, or ask for an earlier --window");
+    return line_of_many;
 }
 
 // (XᵀX)⁻¹ of the cosine for [cos, sin, 1, t, t², t³], times half the count: 1 for a plain sine.
@@ -188,12 +197,14 @@ Identification identify_one(const Capture& capture, double frequency_Hz,
                             const IdentifyOptions& options) {
     Identification out;
     out.frequency_Hz = frequency_Hz;
-    choose_periods(capture, options, out);
+    const bool line_of_many = choose_periods(capture, options, out);
     const TorqueChoice choice = choose_torque(capture, options.input);
     const Vector torque = as_vector(*choice.values), position = as_vector(capture.position);
     WindowTask task;
     task.frequency_Hz = frequency_Hz;
-    task.method = options.method;
+    // A trend would take up part of the other lines, which whole periods of the move keep out.
+    task.method =
+        line_of_many && options.method == SID_BIN_CUBIC ? SID_BIN_CONSTANT : options.method;
     task.timing = choice.held ? SID_TORQUE_HELD_NEXT : SID_TORQUE_SAMPLED;
     const double per_period = 1 / (frequency_Hz * capture.sample_time_s);
     task.first = std::lround(out.first_period * per_period);

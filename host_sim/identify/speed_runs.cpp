@@ -73,19 +73,34 @@ double tolerance(const Capture& capture, const Speed& speed, double median) {
     return std::max({kWithin * std::abs(median), 2.01 * capture.velocity_quantum, 5 * speed.noise});
 }
 
-// The longest part of a stretch that stays near the stretch's median speed.
+// The mean speed around each row: single rows may stray further than the speed itself does.
+Vector smoothed(const Vector& velocity, const Stretch& s) {
+    const long half = kFewest / 2;
+    Vector out(s.end - s.first);
+    for (long i = s.first; i < s.end; ++i) {
+        const long from = std::max(s.first, i - half), to = std::min(s.end, i + half + 1);
+        out[i - s.first] = velocity.segment(from, to - from).mean();
+    }
+    return out;
+}
+
+// The longest part of a stretch that stays near the stretch's median speed, less its first half:
+// the loop is still settling there.
 Stretch steady_part(const Capture& capture, const Speed& speed, const Stretch& s) {
     const double median =
         median_of({speed.velocity.data() + s.first, speed.velocity.data() + s.end});
     const double within = tolerance(capture, speed, median);
+    const Vector mean = smoothed(speed.velocity, s);
     Stretch best{s.first, s.first, s.segment};
     for (long i = s.first; i < s.end;) {
         long end = i;
-        while (end < s.end && std::abs(speed.velocity[end] - median) <= within)
+        while (end < s.end && std::abs(mean[end - s.first] - median) <= within)
             ++end;
         if (end - i > best.end - best.first) best = {i, end, s.segment};
         i = std::max(end, i + 1);
     }
+    const bool settles = best.first > s.first && best.end - best.first > 4 * kFewest;
+    if (settles) best.first += (best.end - best.first) / 2;
     return best;
 }
 

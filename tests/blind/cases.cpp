@@ -137,11 +137,17 @@ struct Tuned {
     Strength strength;
 };
 
+// A tool may look at a wider band: there, too, the effect is not most of the torque.
+bool no_rattle(const Draft& d, const World& world, const servoid::Model& model, const Record& r) {
+    return measure(world, d.base, model, r, 3 * band_of(d)).share < 0.45;
+}
+
 // The strength at which the effect leaves what is wanted of it; nothing where it cannot.
 std::optional<Tuned> tune(const Draft& d, const Plan& plan, const servoid::Model& model,
                           Random& random) {
     const double wanted_ratio = random.log_uniform(kLeastRatio, kMostRatio);
     const double wanted_share = random.log_uniform(kLeastShare, kMostShare);
+    if (!(plan.most > plan.least)) return {};
     double s = std::clamp(plan.start, plan.least, plan.most);
     for (int i = 0; i < 10; ++i) {
         World world = d.base;
@@ -157,11 +163,12 @@ std::optional<Tuned> tune(const Draft& d, const Plan& plan, const servoid::Model
                                   : wanted_share;
         const bool strong = got.ratio() >= kLeastRatio && got.share >= 0.9 * kLeastShare;
         if (strong && got.share <= 1.1 * target && got.share >= target / 1.5)
-            return Tuned{hidden, got};
+            return no_rattle(d, world, model, r) ? std::optional(Tuned{hidden, got}) : std::nullopt;
         const double next = std::clamp(s * std::clamp(std::pow(target / got.share, 0.9), 0.1, 10.0),
                                        plan.least, plan.most);
         if (next == s) {
-            if (strong && got.share <= kMostShare) return Tuned{hidden, got};
+            if (strong && got.share <= kMostShare && no_rattle(d, world, model, r))
+                return Tuned{hidden, got};
             return {};
         }
         s = next;

@@ -147,13 +147,20 @@ std::vector<std::string> right_names(const Case& c) {
     return out;
 }
 
+bool as_it_should(const Case& c, const Verdict& v) {
+    if (c.hidden.empty()) return v.verdict == "adequate";
+    if (is_one_of(foreign_effects(), c.hidden.front().name))
+        return v.verdict == "unknown" || v.verdict == "ambiguous";
+    return v.first_right;
+}
+
 std::string describe(const Case& c, const Verdict& v, bool verbose) {
-    std::string out = fmt::format("{} {:<22} #{:<3} {:<9} {:<22} p {:.3f}  before {:.4f} after "
-                                  "{:.4f} floor {:.4f} (true {:.4f}) "
-                                  "{:.2f} s\n",
-                                  v.first_right || v.named == "adequate" ? "  " : "!!", v.truth,
-                                  c.seed, v.verdict, v.first, v.probability, v.error_before,
-                                  v.error_after, v.floor, v.true_floor, v.seconds);
+    std::string out =
+        fmt::format("{} {:<22} #{:<3} {:<9} {:<22} p {:.3f}  before {:.4f} after "
+                    "{:.4f} floor {:.4f} (true {:.4f}) "
+                    "{:.2f} s\n",
+                    as_it_should(c, v) ? "  " : "!!", v.truth, c.seed, v.verdict, v.first,
+                    v.probability, v.error_before, v.error_after, v.floor, v.true_floor, v.seconds);
     if (!v.failure.empty()) out += "    thrown: " + v.failure + "\n";
     if (!v.ladder.empty()) out += fmt::format("    ladder: {}\n", fmt::join(v.ladder, " → "));
     if (!verbose) return out;
@@ -210,6 +217,7 @@ Verdict judge_refine(const Case& c) {
         v.diagnosis = r.last;
         v.verdict = servoid::verdict_name(r.verdict);
         v.floor = r.noise_floor;
+        v.true_floor = true_floor(c, r.last.band_Hz);
         for (const servoid::Rung& rung : r.ladder) {
             v.ladder.push_back(rung.added);
             v.error_after = rung.torque_error;

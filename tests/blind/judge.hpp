@@ -41,7 +41,10 @@ struct Verdict {
 std::vector<std::string> right_names(const Case& c);
 
 Verdict judge(const Case& c);        // diagnose
-Verdict judge_refine(const Case& c); // refine: are all hidden effects in the ladder, no other
+Verdict judge_refine(const Case& c); // refine: are all hidden effects in its model
+
+// Nothing hidden: adequate; outside the catalogue: unknown or ambiguous; else the truth first.
+bool as_it_should(const Case& c, const Verdict& v);
 
 std::string describe(const Case& c, const Verdict& v, bool verbose);
 

@@ -29,12 +29,12 @@ struct Draw {
     double phase() const { return random.uniform(-std::numbers::pi, std::numbers::pi); }
     // Cycles per revolution or per metre whose frequency the motion keeps in reach, two in the
     // travel.
-    double order(double most_Hz) const {
+    double order(double most_Hz, int most = 36) const {
         const double fastest = most_Hz / motion.typical_speed; // cycles per rad or m
         const double slowest = 2 / motion.travel;
         const double unit = world().linear ? system.lead : kTurn;
         const int low = std::max(1, static_cast<int>(std::ceil(slowest * unit)));
-        const int high = std::clamp(static_cast<int>(fastest * unit), low, 36);
+        const int high = std::clamp(static_cast<int>(fastest * unit), low, std::max(low, most));
         const int n = random.integer(low, high);
         return world().linear ? n / system.lead : n;
     }
@@ -220,11 +220,12 @@ Plan backlash(const Draw& d) {
 
 Plan variable_inertia(const Draw& d) {
     Plan p;
-    const double order = d.order(20), phase = d.phase();
+    const double order = d.order(20, 4), phase = d.phase();
     p.at = [=](double s) {
         return term("variable_inertia", {{"fraction", s}, {"order", order}, {"phase", phase}});
     };
-    p.start = 0.1, p.most = 0.6;
+    p.start = 0.1;
+    p.most = order > 4 ? 0 : 0.6; // a short move that would need a finer wave shows none
     return p;
 }
 

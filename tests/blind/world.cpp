@@ -34,7 +34,8 @@ class Mechanics {
 
     double position() const { return x_; }
     double velocity() const { return v_; }
-    double direction() const { return v_ > 0 ? 1 : v_ < 0 ? -1 : 0; }
+    bool stuck() const { return v_ == 0; }
+    double direction() const { return direction_; }
     double delivered() const { return delivered_; }
     double time() const { return t_; }
 
@@ -127,9 +128,11 @@ class Mechanics {
         if (std::abs(free) <= least) {
             friction = mass * free / h_;
             v_ = 0;
+            direction_ = dry > 0 ? friction / dry : 0;
         } else {
             friction = std::copysign(dry, free);
             v_ = free - std::copysign(least, free);
+            direction_ = std::copysign(1.0, free);
         }
         if (w_.gap > 0)
             load_v_ += h_ * coupling / load_;
@@ -155,7 +158,7 @@ class Mechanics {
     double h_, t_ = 0;
     double x_ = 0, v_ = 0, load_x_ = 0, load_v_ = 0, mode_ = 0, mode_rate_ = 0, bristle_ = 0;
     double motor_ = 0, load_ = 0, stiffness_ = 0, damping_ = 0;
-    double delivered_ = 0, lagged_ = 0, lag_keep_ = 0;
+    double delivered_ = 0, direction_ = 0, lagged_ = 0, lag_keep_ = 0;
     std::vector<double> delayed_;
     size_t head_ = 0;
 };
@@ -220,7 +223,7 @@ Record simulate(const World& w, size_t periods, Start start, const RunOptions& o
         for (int i = 0; i < n; ++i) {
             axis.step(torque, noise - walk);
             direction += axis.direction(), delivered += axis.delivered();
-            stuck += axis.direction() == 0 ? 1 : 0;
+            stuck += axis.stuck() ? 1 : 0;
         }
         r.direction.push_back(direction / n), r.delivered.push_back(delivered / n);
         r.stuck.push_back(stuck / n);

@@ -65,7 +65,8 @@ using Reference = std::vector<double>; // one value per control period, from res
 struct Record {
     std::vector<double> reference, asked, measured; // what a drive can record
     std::vector<double> position, velocity;         // the truth at the same instants
-    // Means over the period that follows:
+    // Means over the period that follows; direction: of dry friction, as a share of what it may be
+    // (between −1 and 1 while the axis sticks):
     std::vector<double> mean_velocity, acceleration, direction, delivered, noise;
     std::vector<double> stuck; // share of the period
     bool limited = false;      // the loop met its torque limit

@@ -1,6 +1,6 @@
 // EMPS: the error ladder, the published identification, the loop view, the noise floor.
-#include "compare/add_effect.hpp"
 #include "compare/compare.hpp"
+#include "diagnose/add_effect.hpp"
 #include "identify/identify.hpp"
 #include "real/measured.hpp"
 

@@ -127,7 +127,7 @@ TEST(Regression, ModelTorqueIsColumnsTimesValues) {
     const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
     const FitResult f = fit_one(believed(), c);
     const std::vector<PreparedMotion> motions = prepare_all({&c, 1}, {40.0, {}});
-    const Regression r = make_regression(f.model, motions);
+    const Assembly r = Assembler(motions).assemble(f.model);
     const Eigen::VectorXd torque = model_torque(f.model, motions.front());
     EXPECT_EQ(r.columns.rows(), std::count(motions[0].used.begin(), motions[0].used.end(), true));
     EXPECT_LT((r.columns * f.values - r.torque).norm(), kClose * r.torque.norm());

@@ -120,13 +120,7 @@ int list_cases(const Request& r) {
 int campaign(const Request& r) {
     const auto listener = [&](const blind::Case& c, const blind::Verdict& v) {
         if (!r.save.empty()) save(c, r.save);
-        const bool nothing = c.effects.empty(), foreign = v.truth.find("cubic") == 0 ||
-                                                          v.truth == "random_walk" ||
-                                                          v.truth == "inertia_jump";
-        const bool good = nothing   ? v.verdict == "adequate"
-                          : foreign ? v.verdict == "unknown" || v.verdict == "ambiguous"
-                                    : v.first_right;
-        if (!r.quiet && !(r.wrong_only && good))
+        if (!r.quiet && !(r.wrong_only && blind::as_it_should(c, v)))
             fmt::print("{}", blind::describe(c, v, r.verbose)), std::fflush(stdout);
     };
     const auto verdicts = blind::run_jobs(jobs_of(r), r.threads, listener);
