@@ -60,15 +60,38 @@ NoiseFloor from_repetition(const PreparedMotion& m, const Vector& residual, Eige
     return out;
 }
 
+// Less than two whole periods: what differs between the instants that are a period apart.
+NoiseFloor from_overlap(const PreparedMotion& m, const Vector& residual, Eigen::Index points) {
+    double difference = 0, power = 0;
+    long pairs = 0;
+    for (Eigen::Index k = 0; k + points < residual.size(); ++k) {
+        if (!m.used[size_t(k)] || !m.used[size_t(k + points)]) continue;
+        difference += std::pow(residual[k + points] - residual[k], 2) / 2;
+        power += (std::pow(residual[k], 2) + std::pow(residual[k + points], 2)) / 2;
+        ++pairs;
+    }
+    NoiseFloor out;
+    out.from_repetition = pairs >= 16;
+    if (!out.from_repetition) return out;
+    out.periods = 2;
+    out.ratio = std::sqrt(difference / double(pairs)) / torque_rms(m);
+    out.repeatable_share = power > 0 ? std::clamp(1 - difference / power, 0.0, 1.0) : 0;
+    return out;
+}
+
 } // namespace
 
 NoiseFloor noise_floor(const PreparedMotion& m, const Vector& residual, double inertia) {
+    // A motion that repeats to the count repeats its quantisation too.
+    const double quantisation =
+        std::hypot(inertia * m.acceleration_noise, m.torque_noise) / torque_rms(m);
+    NoiseFloor out;
     if (m.period_s) { // the grid has a whole number of points to the period
         const auto points = Eigen::Index(std::lround(*m.period_s / m.grid.step_s));
-        if (residual.size() >= 2 * points) return from_repetition(m, residual, points);
+        out = residual.size() >= 2 * points ? from_repetition(m, residual, points)
+                                            : from_overlap(m, residual, points);
     }
-    NoiseFloor out;
-    out.ratio = std::hypot(inertia * m.acceleration_noise, m.torque_noise) / torque_rms(m);
+    out.ratio = std::max(out.ratio, quantisation);
     return out;
 }
 

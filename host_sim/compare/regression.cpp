@@ -103,10 +103,22 @@ Model moved_by(const State& s, const std::vector<Shape>& shapes, const Vector& b
     return out;
 }
 
+// A shape that the user believes in moves by half of itself at most: where the motion does not show
+// it, it would else run away and take up what something else has caused.
+void stay_near_beliefs(std::vector<Shape>& shapes, const Model& model, size_t believed_terms) {
+    for (Shape& shape : shapes) {
+        const double value = model.effects[shape.term].at(shape.key);
+        if (shape.term >= believed_terms || !(value > 0)) continue;
+        shape.lower = std::max(shape.lower, value / 1.5);
+        shape.upper = std::min(shape.upper, value * 1.5);
+    }
+}
+
 // Levenberg-Marquardt over the shapes on the projected residual (Kaufman's simplification). Returns
 // whether it came to rest.
 bool descend(State& s, Assembler& assembler, const FitOptions& options) {
-    const std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
+    std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
+    stay_near_beliefs(shapes, s.model, options.believed_terms);
     if (shapes.empty()) return true;
     double damping = 1e-3;
     for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
@@ -287,6 +299,7 @@ std::string coefficient_name(const Model& model, const Coefficient& coefficient)
 }
 
 Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
+    assembler.set_context(fitted.model);
     const State s = evaluate(fitted.model, assembler);
     const Matrix x = pick(s.assembly.columns, s.linear.free);
     const std::vector<Shape> shapes = shapes_of(s.model);

@@ -8,6 +8,7 @@
 
 #include "compare/assembly.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct FitOptions {
     int most_iterations = 12; // of the shape parameters
     bool uncertainty = true;  // else the std are left at 0
     size_t frozen_terms = 0;  // effects at the front of the model whose shapes stay as they are
+    size_t believed_terms = SIZE_MAX; // effects at the front whose shapes stay near their values
 };
 
 // Least squares of everything that is not fixed, with dissipation kept ≥ 0. Standard deviations are

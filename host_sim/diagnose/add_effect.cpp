@@ -82,8 +82,10 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
         throw Refusal(effect.info().name + " cannot be told from what the model has",
                       "a move in both directions, several speeds, a longer travel");
     if (starts.size() > kDescents) starts.resize(kDescents);
-    const FitOptions quick{
-        .most_iterations = 8, .uncertainty = false, .frozen_terms = base.effects.size()};
+    const FitOptions quick{.most_iterations = 8,
+                           .uncertainty = false,
+                           .frozen_terms = base.effects.size(),
+                           .believed_terms = base.effects.size()};
     FitResult best;
     best.torque_error = INFINITY;
     for (const auto& [error, term] : starts) {
@@ -93,6 +95,7 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     // The shapes that the model already had are moved too, where the effect is of any use.
     const bool useful = best.torque_error < 0.98 * fitted.torque_error;
     FitOptions last;
+    last.believed_terms = base.effects.size();
     if (!useful) last.frozen_terms = base.effects.size();
     return fit(best.model, assembler, last);
 }

@@ -22,7 +22,7 @@ constexpr double kSure = 0.9;          // probability from which one candidate s
 constexpr double kLeastGain = 0.03;    // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15;    // times the floor: the residual is noise
 constexpr double kProbeExplains = 0.6; // of what is left: something depends on that variable
-constexpr double kMaterial = 0.04; // of the power removed: less than that left is no second cause
+constexpr double kMaterial = 0.09; // of the power removed: less than that left is no second cause
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
 // are told apart by more than the number of samples.

@@ -45,20 +45,21 @@ State slope(const AxisDescription& p, const State& x, double torque) {
     const double za = p.elastic->antiresonance_damping, zr = p.elastic->resonance_damping;
     // z'' + 2ζrωr z' + ωr² z = u; a = (ωr²/ωa²)/J (z'' + 2ζaωa z' + ωa² z)
     const double zz = u - 2 * zr * wr * x[3] - wr * wr * x[2];
-    const double a = wr * wr / (wa * wa) / p.inertia *
-                     (zz + 2 * za * wa * x[3] + wa * wa * x[2]);
+    const double a = wr * wr / (wa * wa) / p.inertia * (zz + 2 * za * wa * x[3] + wa * wa * x[2]);
     return {x[1], a, x[3], zz};
 }
 
 State runge_kutta(const AxisDescription& p, State x, double torque, double h) {
     auto moved = [&](const State& by, double f) {
         State y = x;
-        for (size_t i = 0; i < 4; ++i) y[i] += f * by[i];
+        for (size_t i = 0; i < 4; ++i)
+            y[i] += f * by[i];
         return y;
     };
     const State k1 = slope(p, x, torque), k2 = slope(p, moved(k1, h / 2), torque),
                 k3 = slope(p, moved(k2, h / 2), torque), k4 = slope(p, moved(k3, h), torque);
-    for (size_t i = 0; i < 4; ++i) x[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+    for (size_t i = 0; i < 4; ++i)
+        x[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     return x;
 }
 
@@ -71,7 +72,8 @@ std::array<double, 2> against_runge_kutta(const AxisDescription& p, int steps, i
     double dp = 0, dv = 0, p_top = 0, v_top = 0;
     for (int i = 0; i < steps; ++i) {
         axis.step(input(i));
-        for (int k = 0; k < fine; ++k) x = runge_kutta(p, x, input(i), kStep / fine);
+        for (int k = 0; k < fine; ++k)
+            x = runge_kutta(p, x, input(i), kStep / fine);
         dp = std::max(dp, std::abs(axis.position() - x[0]));
         dv = std::max(dv, std::abs(axis.velocity() - x[1]));
         p_top = std::max(p_top, std::abs(x[0])), v_top = std::max(v_top, std::abs(x[1]));
@@ -102,7 +104,8 @@ TEST(Axis, CoulombStopsWhereTheClosedFormSays) {
     for (double v0 : {0.001, 0.07, 1.0, -3.3, 40.0}) {
         Axis axis(p, kStep);
         axis.set_state(0, v0);
-        for (int i = 0; i < 2000; ++i) axis.step(0);
+        for (int i = 0; i < 2000; ++i)
+            axis.step(0);
         const double stop = v0 * std::abs(v0) * p.inertia / (2 * p.coulomb_forward);
         EXPECT_NEAR(axis.position(), stop, 1e-9 * std::abs(stop)) << "v0 " << v0;
         EXPECT_EQ(axis.velocity(), 0) << "v0 " << v0;
@@ -116,7 +119,8 @@ TEST(Axis, StickingHoldsBelowAndBreaksAwayAboveCoulomb) {
     p.constant_torque = 1e-3;
     Axis axis(p, kStep);
     for (double torque : {6.9e-3, -1.9e-3, 0.0}) {
-        for (int i = 0; i < 100; ++i) axis.step(torque);
+        for (int i = 0; i < 100; ++i)
+            axis.step(torque);
         EXPECT_EQ(axis.position(), 0) << torque;
     }
     axis.step(7.1e-3);

@@ -16,7 +16,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 Vector sampled(double step_s, Eigen::Index n, double (*f)(double)) {
     Vector x(n);
-    for (Eigen::Index i = 0; i < n; ++i) x[i] = f(double(i) * step_s);
+    for (Eigen::Index i = 0; i < n; ++i)
+        x[i] = f(double(i) * step_s);
     return x;
 }
 
@@ -47,7 +48,8 @@ TEST(LowPass, StopsAboveTheBand) {
     const double step = 1e-3;
     for (double f : {62.0, 90.0, 200.0, 440.0}) {
         Vector x(4000);
-        for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(kTurn * f * double(i) * step);
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+            x[i] = std::sin(kTurn * f * double(i) * step);
         const LowPass low_pass(step, 40);
         const Vector y = low_pass.apply(x, inside(low_pass, 4.0, 0.0061));
         EXPECT_LT(y.cwiseAbs().maxCoeff(), 5e-4) << f << " Hz";
@@ -69,7 +71,8 @@ TEST(LowPass, PolynomialsAreExact) {
 TEST(LowPass, HalfASampleOfHoldIsAShift) {
     const double step = 1e-3, w = kTurn * 7;
     Vector x(3000);
-    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(w * double(i) * step);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+        x[i] = std::sin(w * double(i) * step);
     const LowPass low_pass(step, 40);
     const Grid grid = inside(low_pass, 3.0, 0.0103);
     const Vector y = low_pass.apply(x, grid, 0, step / 2);
@@ -82,7 +85,8 @@ TEST(LowPass, NoiseGainIsWhatWhiteNoiseShows) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     Vector x(200000);
-    for (double& value : x) value = normal(random);
+    for (double& value : x)
+        value = normal(random);
     const LowPass low_pass(125e-6, 60);
     const Grid grid = inside(low_pass, 25.0, 1.0 / 240);
     for (int derivative : {0, 1, 2}) {
