@@ -14,6 +14,8 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double kPowerShare = 0.998; // of the torque lies below half the band
+constexpr double kExcited = 0.995;    // of the power of the reference's acceleration
+constexpr double kHarmonics = 4;      // of what is excited: what friction makes of it
 constexpr double kNoiseShare = 0.03;  // of the torque may be noise of the acceleration: the inertia
                                       // is then low by at most the square of it, 0.1 %
 constexpr double kHighest = 0.11;     // of the sample rate: room for the smoothing of the motion
@@ -28,6 +30,17 @@ double edge_of_power(const Vector& signal, double sample_time_s, double share) {
         if (sum >= share * total) return double(k) * spectrum.step_Hz;
     }
     return double(spectrum.power.size() - 1) * spectrum.step_Hz;
+}
+
+// Above the excitation and its first harmonics torque and motion are noise that the loop has fed
+// round: no band for a model. Infinite where the reference was not recorded.
+double excited_band(const Capture& capture) {
+    if (capture.position_ref.size() < 8 || !capture.uniform) return INFINITY;
+    const Eigen::Map<const Vector> r(capture.position_ref.data(), Eigen::Index(capture.rows()));
+    const Eigen::Index n = r.size() - 2;
+    const Vector acceleration = r.tail(n) - 2 * r.segment(1, n) + r.head(n);
+    if (!(acceleration.squaredNorm() > 0)) return INFINITY;
+    return kHarmonics * edge_of_power(acceleration, capture.sample_time_s, kExcited);
 }
 
 double rms(const Vector& x) { return x.size() ? std::sqrt(x.squaredNorm() / double(x.size())) : 0; }
@@ -59,8 +72,9 @@ double choose_band(const Capture& capture, Input input) {
     const double noise = sample_noise(m, quantum);
     const double length_s = double(capture.rows()) * capture.sample_time_s;
     const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
-    double band = std::clamp(2 * edge_of_power(t, capture.sample_time_s, kPowerShare), lowest,
-                             kHighest / capture.sample_time_s);
+    const double widest =
+        std::min(2 * edge_of_power(t, capture.sample_time_s, kPowerShare), excited_band(capture));
+    double band = std::clamp(widest, lowest, kHighest / capture.sample_time_s);
     while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare)
         band /= 1.2;
     // Two significant digits: a band is stated and repeated by people.

@@ -3,6 +3,7 @@
 #include "common/error.hpp"
 #include "diagnose/add_effect.hpp"
 #include "diagnose/advice.hpp"
+#include "diagnose/coherence.hpp"
 #include "diagnose/evidence.hpp"
 #include "effects/catalogue.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
+constexpr double kBeyondNoise = 0.6;   // a gain that fed-back noise has not been seen to make
+constexpr double kFollows = 0.4;       // of a linear dynamics' gain must follow the reference
 constexpr double kSure = 0.9;          // probability from which one candidate stands alone
 constexpr double kLeastGain = 0.03;    // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15;    // times the floor: the residual is noise
@@ -177,6 +180,28 @@ void prefer_simple_names(const Diagnosis& d, std::vector<double>& evidence) {
         evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
 }
 
+// Linear dynamics between asked torque and motion: what noise in a closed loop imitates.
+bool is_linear_dynamics(const std::string& effect) {
+    return effect == "dead_time" || effect == "torque_lag" || effect == "elastic_load";
+}
+
+// Rejects dynamics whose gain does not follow the reference.
+void reject_loop_noise(Diagnosis& d, Assembler& assembler) {
+    const auto gains = [&](const Candidate& c) {
+        return c.sound && is_linear_dynamics(c.effect) && c.error_after < d.error_before;
+    };
+    if (std::none_of(d.candidates.begin(), d.candidates.end(), gains)) return;
+    const std::optional<double> share =
+        coherent_share(d.before.residual, assembler.motions(), assembler.blocks());
+    if (!share) return;
+    for (Candidate& c : d.candidates) {
+        const double gain = 1 - std::pow(c.error_after / d.error_before, 2);
+        if (!gains(c) || gain > kBeyondNoise || *share >= kFollows * gain) continue;
+        c.sound = false;
+        c.note = "noise that the loop feeds round: it does not follow the reference";
+    }
+}
+
 void set_probabilities(Diagnosis& d) {
     const Candidate* best = nullptr;
     for (const Candidate& c : d.candidates)
@@ -289,6 +314,7 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     d.validation_error_before = validation_error(d.before, assembler);
     set_floor(d, d.before, motions);
     d.candidates = try_all(d.before, motions, options);
+    reject_loop_noise(d, assembler);
     set_probabilities(d);
     d.verdict = judge(d, assembler, options.look_ahead);
     d.advice = advice_for(d);

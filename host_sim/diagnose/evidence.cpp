@@ -12,7 +12,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
-                                   const std::vector<int>& block) {
+                                   const std::vector<int>& block, double ridge) {
     const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
     const Eigen::Index p = slopes.cols();
     std::vector<double> out;
@@ -35,7 +35,7 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
         row = end;
     }
     // A touch of ridge: a block may be the only one that shows a column.
-    const double ridge = p > 0 ? 1e-9 * std::max(1e-300, gram.diagonal().maxCoeff()) : 0;
+    if (p > 0) ridge *= std::max(1e-300, gram.diagonal().maxCoeff());
     for (const Part& part : parts) {
         Matrix rest = gram - part.gram;
         rest.diagonal().array() += ridge;

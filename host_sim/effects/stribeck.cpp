@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+constexpr double kFewestRows = 0.01; // share of the rows below the Stribeck speed
+constexpr double kSlowest = 0.005;   // of the top speed: below it lies only the turn itself
+
 class Stribeck : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
@@ -42,9 +45,12 @@ class Stribeck : public Effect {
     }
 
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
-        return term.at("velocity") > 0.5 * motion.top_speed()
-                   ? "it only bends the viscous line: the speed is above half the top speed"
-                   : "";
+        const double vs = term.at("velocity");
+        if (vs > 0.5 * motion.top_speed())
+            return "it only bends the viscous line: the speed is above half the top speed";
+        const auto slow = (motion.velocity.array().abs() < vs).count();
+        return double(slow) < kFewestRows * double(motion.size()) ? "too few rows are that slow"
+                                                                  : "";
     }
 
     std::vector<std::string> shape_keys() const override { return {"velocity"}; }
