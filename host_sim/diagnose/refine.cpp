@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMostRungs = 8;
 constexpr double kWorthAdding = 0.03; // of the held-out power of the residual
+constexpr double kClearly = 0.08;     // the same, for an effect that the evidence alone leaves open
 constexpr double kLost = 0.01;        // an effect whose removal costs less is needless
 
 double held_out_error(const FitResult& fit, Assembler& assembler) {
@@ -43,10 +44,15 @@ double gain_of(const Diagnosis& d, const Candidate& c) {
 // The candidate that a greedy step takes: the most probable one that is worth its parameters; its
 // simple form first where that does most of it.
 const Candidate* next_step(const Diagnosis& d) {
-    const Candidate* best = nullptr;
+    double none = 1;
     for (const Candidate& c : d.candidates)
-        if (!best && c.sound) best = &c;
-    if (!best || gain_of(d, *best) < kWorthAdding) return nullptr;
+        none -= c.probability;
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d.candidates) {
+        const double worth = c.probability > none ? kWorthAdding : kClearly;
+        if (!best && c.sound && gain_of(d, c) >= worth) best = &c;
+    }
+    if (!best) return nullptr;
     for (const Candidate& c : d.candidates)
         if (c.sound && is_richer_form(best->effect, c.effect) &&
             gain_of(d, c) > 0.8 * gain_of(d, *best))
