@@ -60,7 +60,9 @@ void run_effects(const Options& o) {
     if (!o.name.empty()) {
         const Effect* effect = find_effect(o.name);
         if (!effect) throw UsageError("no effect is called " + o.name + "; see: servoid effects");
-        o.output.print_json(to_json(effect->info()));
+        Json one = {{"schema", "servoid.effect/1"}};
+        one.update(to_json(effect->info()));
+        o.output.print_json(one);
         print_one(o.output, effect->info());
         return;
     }

@@ -49,6 +49,7 @@ void add_simulate(CLI::App& app) {
     add_output_options(*verb, o->output);
     add_examples(
         *verb, "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"
+               "  (an experiment without a known key answers with the keys of its kind)\n"
                "  servoid simulate system1.toml --experiment "
                "trapezoid:stroke=6.28,velocity=50,cycles=4,torque_noise=1e-3 --seed 7 --out b.csv");
     verb->callback([o] { run_simulate(*o); });

@@ -31,7 +31,7 @@ std::string key_of(const EffectTerm& term) {
     return key;
 }
 
-// Blocks of equal length; where the move repeats, a whole number of them to a period.
+// Blocks of equal length of the record.
 int block_at(const PreparedMotion& m, Eigen::Index k) {
     return int(k * kBlocksPerCapture / std::max<Eigen::Index>(1, m.grid.count));
 }

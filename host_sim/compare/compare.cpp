@@ -29,6 +29,48 @@ Powers powers_of(const PreparedMotion& m, const Vector& residual) {
     return p;
 }
 
+// One capture with what the model leaves of it.
+struct Part {
+    const PreparedMotion* motion;
+    Vector residual;
+    Powers powers;
+};
+
+std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions) {
+    std::vector<Part> out;
+    for (const PreparedMotion& m : motions) {
+        out.push_back({&m, residual_torque(model, m), {}});
+        out.back().powers = powers_of(m, out.back().residual);
+    }
+    return out;
+}
+
+Powers sum_of(const std::vector<Part>& parts) {
+    Powers total;
+    for (const Part& part : parts) {
+        total.residual += part.powers.residual, total.torque += part.powers.torque;
+        total.used += part.powers.used, total.all += part.powers.all;
+    }
+    return total;
+}
+
+NoiseFloor pooled_floor(const std::vector<Part>& parts, double inertia) {
+    NoiseFloor out;
+    out.from_repetition = true;
+    double noise = 0, repeatable = 0;
+    for (const Part& part : parts) {
+        const NoiseFloor floor = noise_floor(*part.motion, part.residual, inertia);
+        noise += floor.ratio * floor.ratio * part.powers.torque;
+        repeatable += floor.repeatable_share * part.powers.residual;
+        out.from_repetition = out.from_repetition && floor.from_repetition;
+        out.periods += floor.periods;
+    }
+    const Powers total = sum_of(parts);
+    out.ratio = std::sqrt(noise / total.torque);
+    out.repeatable_share = out.from_repetition ? repeatable / total.residual : NAN;
+    return out;
+}
+
 // Shares of the whole from shares of each part, weighted by the part's power and size.
 void merge(std::vector<Regime>& all, const std::vector<Regime>& part, double power_weight,
            double sample_weight) {
@@ -68,37 +110,25 @@ std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
     return out;
 }
 
+NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions) {
+    return pooled_floor(parts_of(model, motions), model.inertia);
+}
+
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions) {
+    const std::vector<Part> parts = parts_of(model, motions);
+    const Powers total = sum_of(parts);
     Comparison out;
-    std::vector<Vector> residuals;
-    std::vector<Powers> powers;
-    Powers total;
-    for (const PreparedMotion& m : motions) {
-        residuals.push_back(residual_torque(model, m));
-        powers.push_back(powers_of(m, residuals.back()));
-        total.residual += powers.back().residual, total.torque += powers.back().torque;
-        total.used += powers.back().used, total.all += powers.back().all;
-    }
-    double noise = 0, repeatable = 0;
-    bool all_repeat = true;
-    for (size_t i = 0; i < motions.size(); ++i) {
-        const PreparedMotion& m = motions[i];
-        const NoiseFloor floor = noise_floor(m, residuals[i], model.inertia);
-        noise += floor.ratio * floor.ratio * powers[i].torque;
-        repeatable += floor.repeatable_share * powers[i].residual;
-        all_repeat &= floor.from_repetition;
-        out.floor.periods += floor.periods;
-        merge(out.where, where_it_fails(m, residuals[i]), powers[i].residual / total.residual,
-              double(powers[i].used) / double(total.used));
+    for (const Part& part : parts) {
+        const PreparedMotion& m = *part.motion;
+        merge(out.where, where_it_fails(m, part.residual), part.powers.residual / total.residual,
+              double(part.powers.used) / double(total.used));
         out.samples += long(m.capture->rows());
         out.duration_s += m.capture->time_s.back() - m.capture->time_s.front();
         out.band_Hz = std::max(out.band_Hz, m.band_Hz);
         out.torque_name = m.torque_name;
     }
+    out.floor = pooled_floor(parts, model.inertia);
     out.torque_error = std::sqrt(total.residual / total.torque);
-    out.floor.ratio = std::sqrt(noise / total.torque);
-    out.floor.from_repetition = all_repeat;
-    out.floor.repeatable_share = all_repeat ? repeatable / total.residual : NAN;
     out.samples_used_share = double(total.used) / double(total.all);
     out.loop = loop_of_all(model, motions);
     return out;

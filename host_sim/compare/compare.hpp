@@ -29,6 +29,9 @@ struct Comparison {
     std::string torque_name;
 };
 
+// The noise floor of all captures together, for the residual that this model leaves.
+NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions);
+
 // All captures together: powers add up.
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions);
 

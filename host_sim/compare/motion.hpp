@@ -20,7 +20,7 @@ struct MotionOptions {
 // Times are seconds after the capture's first row.
 struct PreparedMotion {
     const Capture* capture = nullptr;
-    MotionView motion; // at the sample rate, smoothed at 3 × the band
+    MotionView motion; // at the sample rate, smoothed as little as its noise allows
     double motion_start_s = 0;
     std::optional<LowPass> low_pass;                  // of the motion's rate, at the band
     Grid grid;                                        // where torque and columns are compared
@@ -49,7 +49,8 @@ struct PreparedMotion {
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options);
 
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency
-// where the noise of the measured position, as torque, reaches a small part of the torque itself.
+// where the noise of the measured position, as torque, reaches a small part of the torque itself,
+// and within four times what the reference excites.
 double choose_band(const Capture& capture, Input input);
 
 // The torque column that is used, and whether it is a held reference.

@@ -15,7 +15,9 @@ struct NoiseFloor {
 // residual: T − T̂ on the grid. With whole periods: the power of what differs between them, with
 // P/(P−1) for the mean that was taken from the same P periods. A start transient (leading periods
 // that differ from the rest by more than three times what the rest differ) is left out.
-// Else: the noise of the measured motion and torque carried through the inertia and the band limit.
+// With less than two, the same from instants that are a period apart. Never below the noise of the
+// measured motion and torque carried through the inertia and the band limit, which is all there is
+// where nothing repeats.
 NoiseFloor noise_floor(const PreparedMotion& motion, const Eigen::VectorXd& residual,
                        double inertia);
 

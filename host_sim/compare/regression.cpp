@@ -237,7 +237,7 @@ std::vector<double> term_variance(const State& s, size_t term, const Joint& join
 bool on_bound(const FitResult& out, int term, int index) {
     for (size_t i = 0; i < out.coefficients.size(); ++i) {
         const Coefficient& c = out.coefficients[i];
-        if (c.term == term && (index < 0 || c.index == index) && !c.fixed &&
+        if (c.term == term && c.index == index && !c.fixed &&
             out.values[Eigen::Index(i)] <= c.lower)
             return true;
     }

@@ -11,13 +11,10 @@
 #include <atomic>
 #include <cmath>
 #include <future>
-#include <numeric>
 
 namespace servoid {
 
 namespace {
-
-using Vector = Eigen::VectorXd;
 
 constexpr double kBeyondNoise = 0.6;   // a gain that fed-back noise has not been seen to make
 constexpr double kFollows = 0.4;       // of a linear dynamics' gain must follow the reference
@@ -30,31 +27,6 @@ constexpr double kMaterial = 0.09; // of the power removed: less than that left 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
 // are told apart by more than the number of samples.
 constexpr double kMostCount = 150;
-
-double sum(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-double validation_error(const FitResult& fit, Assembler& assembler) {
-    const std::vector<double> power =
-        held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());
-    return std::sqrt(sum(power) / fit.torque.squaredNorm());
-}
-
-// Floor of all captures together, for the residual of a fitted model.
-void set_floor(Diagnosis& d, const FitResult& fitted, const std::vector<PreparedMotion>& motions) {
-    double noise = 0, torque = 0;
-    d.floor_from_repetition = true;
-    for (const PreparedMotion& m : motions) {
-        const NoiseFloor floor =
-            noise_floor(m, residual_torque(fitted.model, m), fitted.model.inertia);
-        const double power = m.torque.squaredNorm();
-        noise += floor.ratio * floor.ratio * power, torque += power;
-        d.floor_from_repetition &= floor.from_repetition;
-        d.band_Hz = std::max(d.band_Hz, m.band_Hz);
-    }
-    d.noise_floor = std::sqrt(noise / torque);
-}
 
 // A gain of the torque is taken up by inertia and friction together: never a finding unless one of
 // them is held.
@@ -126,7 +98,7 @@ Candidate try_effect(const FitResult& before, const Effect& effect, Assembler& a
         c.fit = fit_with(before, effect, assembler);
         c.fitted = true;
         c.error_after = c.fit.torque_error;
-        c.validation_error_after = validation_error(c.fit, assembler);
+        c.validation_error_after = held_out_error(c.fit, assembler);
         describe(c, effect, before, assembler);
     } catch (const Refusal& refusal) {
         c.note = refusal.what();
@@ -139,12 +111,8 @@ Candidate try_effect(const FitResult& before, const Effect& effect, Assembler& a
 std::vector<Candidate> try_all(const FitResult& before, const std::vector<PreparedMotion>& motions,
                                const DiagnoseOptions& options) {
     std::vector<const Effect*> effects;
-    for (const Effect* effect : catalogue()) {
-        const auto& only = options.only;
-        const bool wanted =
-            only.empty() || std::find(only.begin(), only.end(), effect->info().name) != only.end();
-        if (wanted && cannot_add(*effect, before.model).empty()) effects.push_back(effect);
-    }
+    for (const Effect* effect : catalogue())
+        if (cannot_add(*effect, before.model).empty()) effects.push_back(effect);
     std::vector<Candidate> out(effects.size());
     std::atomic<size_t> next = 0;
     const auto work = [&](bool reports) {
@@ -234,10 +202,6 @@ void set_probabilities(Diagnosis& d) {
                      });
 }
 
-double gain_of(const Diagnosis& d, const Candidate& c) {
-    return 1 - std::pow(c.validation_error_after / d.validation_error_before, 2);
-}
-
 double family_probability(const Diagnosis& d) {
     double sum = d.candidates.front().probability;
     for (size_t i = 1; i < d.candidates.size(); ++i)
@@ -289,6 +253,10 @@ bool is_richer_form(const std::string& rich, const std::string& simple) {
     return rich == simple + "_asymmetric" || (rich == "presliding" && simple == "coulomb");
 }
 
+double gain_of(const Diagnosis& d, const Candidate& c) {
+    return 1 - std::pow(c.validation_error_after / d.validation_error_before, 2);
+}
+
 const char* verdict_name(Verdict verdict) {
     switch (verdict) {
     case Verdict::missing:
@@ -311,8 +279,11 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     Diagnosis d;
     d.before = fit(model, assembler);
     d.error_before = d.before.torque_error;
-    d.validation_error_before = validation_error(d.before, assembler);
-    set_floor(d, d.before, motions);
+    d.validation_error_before = held_out_error(d.before, assembler);
+    const NoiseFloor floor = noise_floor_of_all(d.before.model, motions);
+    d.noise_floor = floor.ratio, d.floor_from_repetition = floor.from_repetition;
+    for (const PreparedMotion& m : motions)
+        d.band_Hz = std::max(d.band_Hz, m.band_Hz);
     d.candidates = try_all(d.before, motions, options);
     reject_loop_noise(d, assembler);
     set_probabilities(d);

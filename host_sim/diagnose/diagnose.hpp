@@ -49,9 +49,11 @@ struct Diagnosis {
     double band_Hz = 0;
 };
 
+// Share of the residual's held-out power that a candidate takes away.
+double gain_of(const Diagnosis& diagnosis, const Candidate& candidate);
+
 struct DiagnoseOptions {
     std::function<void(const std::string& effect, double share)> progress; // may be empty
-    std::vector<std::string> only; // effects to try; empty: all
     bool look_ahead = true; // whether what would be left after the best candidate has a name too
 };
 

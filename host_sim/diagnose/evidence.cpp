@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace servoid {
 
@@ -45,13 +47,18 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
     return out;
 }
 
+double held_out_error(const FitResult& fit, Assembler& assembler) {
+    const std::vector<double> power =
+        held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());
+    return std::sqrt(std::accumulate(power.begin(), power.end(), 0.0) / fit.torque.squaredNorm());
+}
+
 double effective_count(const Vector& residual) {
     const Spectrum spectrum = power_spectrum(residual, 1);
     const double total = spectrum.power.sum(), square = spectrum.power.squaredNorm();
     if (!(square > 0)) return 1;
-    // A periodogram of white noise has Σ²/Σ(²) of half its bins, and the record is half-filled by
-    // the window and the padding: four numbers a bin, less a half for the skirt of the window.
-    const double count = 2.7 * total * total / square;
+    // White noise: N/2 bins whose powers scatter like an exponential, so that Σ²/Σ(²) is N/4.
+    const double count = 4 * total * total / square;
     return std::clamp(count, 4.0, double(residual.size()));
 }
 

@@ -1,6 +1,8 @@
 // How much a fit is worth: on data it was not fitted to, and against its number of parameters.
 #pragma once
 
+#include "compare/regression.hpp"
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -12,6 +14,9 @@ namespace servoid {
 // are nearly alike.
 std::vector<double> held_out_power(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residual,
                                    const std::vector<int>& block, double ridge = 1e-9);
+
+// ‖T − T̂‖/‖T‖ with each block predicted by the fit to all others.
+double held_out_error(const FitResult& fit, Assembler& assembler);
 
 // How many independent numbers a residual holds, from the flatness of its spectrum: N for white
 // noise up to the Nyquist frequency, few for a residual that repeats or drifts.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace servoid {
 
@@ -17,12 +16,6 @@ constexpr int kMostRungs = 8;
 constexpr double kWorthAdding = 0.03; // of the held-out power of the residual
 constexpr double kClearly = 0.08;     // the same, for an effect that the evidence alone leaves open
 constexpr double kLost = 0.01;        // an effect whose removal costs less is needless
-
-double held_out_error(const FitResult& fit, Assembler& assembler) {
-    const std::vector<double> power =
-        held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());
-    return std::sqrt(std::accumulate(power.begin(), power.end(), 0.0) / fit.torque.squaredNorm());
-}
 
 // On captures that were never fitted, or on blocks that were not where there are none.
 double validation_error(const FitResult& fit, Assembler& assembler,
@@ -35,10 +28,6 @@ double validation_error(const FitResult& fit, Assembler& assembler,
             if (m.used[size_t(k)]) residual += r[k] * r[k], torque += m.torque[k] * m.torque[k];
     }
     return std::sqrt(residual / torque);
-}
-
-double gain_of(const Diagnosis& d, const Candidate& c) {
-    return 1 - std::pow(c.validation_error_after / d.validation_error_before, 2);
 }
 
 // The candidate that a greedy step takes: the most probable one that is worth its parameters; its

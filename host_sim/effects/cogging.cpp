@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-class Cogging : public WaveEffect {
+class Cogging : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "cogging",
@@ -43,22 +43,8 @@ class Cogging : public WaveEffect {
         return out;
     }
 
-    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
-        const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
-        return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
-    }
-
-    std::vector<std::string> shape_keys() const override { return {"order"}; }
-    double search_price() const override { return 5; }
-    std::vector<EffectTerm> starts(const Search& search) const override {
-        std::vector<EffectTerm> out;
-        const OrderScan scan{search, Eigen::VectorXcd::Ones(search.position.size()), {}};
-        for (double k : strongest_orders(scan, 3)) {
-            EffectTerm term = blank();
-            term.parameters["order"] = order_of(k, search.motion.kind);
-            out.push_back(term);
-        }
-        return out;
+    OrderScan scan(const Search& search) const override {
+        return {search, Eigen::VectorXcd::Ones(search.position.size()), {}};
     }
 };
 

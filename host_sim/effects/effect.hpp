@@ -2,7 +2,8 @@
 //
 // An effect says what it is (info), what it does to a simulated axis (add_to), and which torque it
 // needs along a measured motion (columns). To add one: copy the shortest file of this folder, and
-// add its line to catalogue.cpp. Nothing else knows any effect by name.
+// add its line to catalogue.cpp. A few places know effects by name on purpose: what counts as
+// friction (compare/assembly.cpp), aliases and rivals (diagnose/).
 #pragma once
 
 #include "model/model.hpp"

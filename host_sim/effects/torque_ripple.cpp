@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-class TorqueRipple : public WaveEffect {
+class TorqueRipple : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "torque_ripple",
@@ -48,22 +48,12 @@ class TorqueRipple : public WaveEffect {
     }
 
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
-        const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
         if (term.at("fraction") > 0.6) return "more than the torque itself";
-        return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
+        return OrderEffect::implausible(term, motion);
     }
 
-    std::vector<std::string> shape_keys() const override { return {"order"}; }
-    double search_price() const override { return 5; }
-    std::vector<EffectTerm> starts(const Search& search) const override {
-        std::vector<EffectTerm> out;
-        const OrderScan scan{search, search.torque.cast<std::complex<double>>(), {}};
-        for (double k : strongest_orders(scan, 3)) {
-            EffectTerm term = blank();
-            term.parameters["order"] = order_of(k, search.motion.kind);
-            out.push_back(term);
-        }
-        return out;
+    OrderScan scan(const Search& search) const override {
+        return {search, search.torque.cast<std::complex<double>>(), {}};
     }
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-class VariableInertia : public WaveEffect {
+class VariableInertia : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "variable_inertia",
@@ -49,26 +49,12 @@ class VariableInertia : public WaveEffect {
         return out;
     }
 
-    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
-        const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
-        return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
-    }
-
-    std::vector<std::string> shape_keys() const override { return {"order"}; }
-    double search_price() const override { return 5; }
-    std::vector<EffectTerm> starts(const Search& search) const override {
-        // exp(iκθ)·(a + iκ v²/2): its real part is the first column, its imaginary part minus the
-        // second.
+    // exp(iκθ)·(a + iκ v²/2): its real part is the first column, its imaginary part minus the
+    // second.
+    OrderScan scan(const Search& search) const override {
         const std::complex<double> half_i(0, 0.5);
-        const OrderScan scan{search, search.acceleration.cast<std::complex<double>>(),
-                             half_i * search.velocity.cwiseAbs2().cast<std::complex<double>>()};
-        std::vector<EffectTerm> out;
-        for (double k : strongest_orders(scan, 3)) {
-            EffectTerm term = blank();
-            term.parameters["order"] = order_of(k, search.motion.kind);
-            out.push_back(term);
-        }
-        return out;
+        return {search, search.acceleration.cast<std::complex<double>>(),
+                half_i * search.velocity.cwiseAbs2().cast<std::complex<double>>()};
     }
 };
 

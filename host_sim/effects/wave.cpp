@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStepsPerCycle = 4; // of a resolvable order
 constexpr int kMostOrders = 4000;
+constexpr int kStarts = 3; // orders from which a fit begins
 
 // Share of the residual's power explained by [Re c, Im c, 1] for a complex column c.
 double explained(const Eigen::VectorXcd& column, const Eigen::VectorXd& residual) {
@@ -63,6 +64,21 @@ std::vector<double> strongest_orders(const OrderScan& scan, int most) {
     for (size_t i = 0; i < peaks.size() && i < size_t(most); ++i)
         out.push_back(orders[peaks[i]]);
     return out;
+}
+
+std::vector<EffectTerm> OrderEffect::starts(const Search& search) const {
+    std::vector<EffectTerm> out;
+    for (double k : strongest_orders(scan(search), kStarts)) {
+        EffectTerm term = blank();
+        term.parameters["order"] = order_of(k, search.motion.kind);
+        out.push_back(term);
+    }
+    return out;
+}
+
+std::string OrderEffect::implausible(const EffectTerm& term, const MotionView& motion) const {
+    const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
+    return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
 }
 
 } // namespace servoid

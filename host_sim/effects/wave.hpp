@@ -54,4 +54,16 @@ std::vector<double> strongest_orders(const OrderScan& scan, int most);
 // At least this many cycles in the travel, or an order is only a bend.
 constexpr double kFewestCycles = 1.5;
 
+// A sine of position whose order is searched for: cogging, ripple, an inertia that varies.
+class OrderEffect : public WaveEffect {
+  public:
+    std::vector<std::string> shape_keys() const override { return {"order"}; }
+    double search_price() const override { return 5; }
+    std::vector<EffectTerm> starts(const Search& search) const override;
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override;
+
+  protected:
+    virtual OrderScan scan(const Search& search) const = 0;
+};
+
 } // namespace servoid

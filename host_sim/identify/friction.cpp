@@ -40,7 +40,7 @@ sid_friction_result_t by_the_core(const std::vector<SpeedRun>& runs, const Scale
     return result;
 }
 
-void refuse(const sid_friction_result_t& result, const std::vector<SpeedRun>& runs) {
+void refuse(const sid_friction_result_t& result) {
     const char* runs_wanted = "constant-speed runs at three or more speeds in both directions";
     switch (result.status) {
     case SID_FRICTION_ONE_DIRECTION:
@@ -56,7 +56,6 @@ void refuse(const sid_friction_result_t& result, const std::vector<SpeedRun>& ru
     default:
         break;
     }
-    (void)runs;
 }
 
 // Standard deviations from the spread of the run means about the line of their direction: the
@@ -88,7 +87,7 @@ Estimate half_sum(const Estimate& a, const Estimate& b, double value) {
 FrictionResult fit_friction(std::vector<SpeedRun> runs) {
     const Scale scale = scale_of(runs);
     const sid_friction_result_t core = by_the_core(runs, scale);
-    refuse(core, runs);
+    refuse(core);
     const double per_speed = scale.torque * kTorqueUnits / scale.speed;
     const double per_unit = scale.torque * kTorqueUnits;
     FrictionResult out;

@@ -1,9 +1,12 @@
-// The continuous axis: eq. (6) or eq. (7), friction with real sticking, constant torque.
+// The continuous axis: eq. (6) or eq. (7), friction with real sticking, and every effect of the
+// catalogue. Two engines stand behind it; the description decides which (axis_engine.hpp).
 //
-// Between two events (a change of the held torque, of the sign of the velocity, sticking, breaking
-// away) the axis is linear and its input constant, so it is propagated by the exact matrix
-// exponential. Events inside a step are found by halving: exp(A·h/2^k) is tabulated for every k, so
-// each half is exact too, and an event is located within h/2^24.
+// Exact, where the axis is piecewise linear: between two events (a change of the held torque, of
+// the sign of the velocity, sticking, breaking away) the axis is linear and its input constant, so
+// it is propagated by the exact matrix exponential. Events inside a step are found by halving:
+// exp(A·h/2^k) is tabulated for every k, so each half is exact too, and an event is located within
+// h/2^24. General, for everything else: a Runge-Kutta pair with step control between located
+// events.
 #pragma once
 
 #include "model/model.hpp"
@@ -85,8 +88,8 @@ class Axis {
     Axis(Axis&&) noexcept;
     Axis& operator=(Axis&&) noexcept;
 
-    // Holds the motor torque [N·m or N] for one step. Cost: one 2x2 (eq. 6) or 4x4 (eq. 7) product,
-    // some fifty of them in a step with an event.
+    // Holds the asked torque [N·m or N] for one step. Cost, exact engine: one 2x2 (eq. 6) or 4x4
+    // (eq. 7) product, some fifty of them in a step with an event; general: 4 and more small steps.
     void step(double torque);
 
     double position() const; // rad or m

@@ -15,7 +15,6 @@ struct Port {
     SimulatedDrive* drive = nullptr;
     int32_t reference_q8 = 0;
     int32_t torque_pu_q20 = 0; // held since the last period
-    uint32_t origin = 0;
 };
 thread_local Port port;
 
@@ -85,7 +84,7 @@ void sid_hal_exit_critical(void) {}
 std::vector<SessionResult> run_session(SimulatedDrive& drive, const std::vector<PlannedSine>& plan,
                                        const SessionOptions& options,
                                        const SessionObserver& observer) {
-    port = Port{&drive, 0, 0, 0};
+    port = Port{&drive, 0, 0};
     std::vector<sid_frequency_t> frequencies;
     for (const PlannedSine& sine : plan)
         frequencies.push_back(
