@@ -83,6 +83,7 @@ Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(moti
         for (Eigen::Index k = 0; k < motions[i].grid.count; ++k)
             if (motions[i].used[size_t(k)]) block_.push_back(first + block_at(motions[i], k));
     }
+    artifact_ = Vector::Zero(Eigen::Index(block_.size()));
 }
 
 MotionView in_context(const Model& model, MotionView view) {
@@ -196,7 +197,7 @@ Assembly Assembler::assemble(const Model& model) {
     Assembly out;
     out.coefficients = coefficients_of(model);
     out.block = block_;
-    out.torque = torque_of(model);
+    out.torque = torque_of(model).col(0) - artifact_;
     out.columns.resize(Eigen::Index(block_.size()), Eigen::Index(out.coefficients.size()));
     out.columns.col(0) = inertia_of(model);
     Eigen::Index next = 1;

@@ -35,6 +35,9 @@ class Assembler {
 
     Assembly assemble(const Model& model);
     const std::vector<PreparedMotion>& motions() const { return motions_; }
+    // A torque on the used points that no law is asked to explain (rows: blocks().size()).
+    void set_artifact(Eigen::VectorXd artifact) { artifact_ = std::move(artifact); }
+    const Eigen::VectorXd& artifact() const { return artifact_; }
     // Tells laws that change others (a drift of friction, an inertia that varies) what the rest of
     // the model says now.
     void set_context(const Model& model);
@@ -53,6 +56,7 @@ class Assembler {
     const std::vector<PreparedMotion>& motions_;
     std::vector<MotionView> views_; // the motions with the context of the model
     std::vector<int> block_;
+    Eigen::VectorXd artifact_;
     Columns cache_;
     std::string context_;
 };

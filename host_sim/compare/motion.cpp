@@ -74,9 +74,12 @@ void differentiate(const Capture& capture, PreparedMotion& out) {
     const Vector source =
         on_even_grid(capture, capture.has_position() ? capture.position : capture.velocity);
     const int order = capture.has_position() ? 0 : 1;
-    out.position_noise =
-        sample_noise(source, order == 0 ? capture.position_quantum : capture.velocity_quantum);
-    const LowPass smooth(step, smoothing_band(capture, source, out.position_noise, out.band_Hz));
+    if (!(out.smoothing_Hz > 0)) {
+        out.position_noise =
+            sample_noise(source, order == 0 ? capture.position_quantum : capture.velocity_quantum);
+        out.smoothing_Hz = smoothing_band(capture, source, out.position_noise, out.band_Hz);
+    }
+    const LowPass smooth(step, out.smoothing_Hz);
     const Grid grid = motion_grid(source.size(), step, smooth.half_length_s());
     MotionView& motion = out.motion;
     motion.sample_time_s = step;
@@ -151,6 +154,20 @@ void refuse_if_still(const PreparedMotion& prepared) {
                   "a periodic move in both directions, well above the encoder's resolution");
 }
 
+// Torque and motion through the band limit.
+void fill_grid(PreparedMotion& out, Input input) {
+    const Capture& capture = *out.capture;
+    const TorqueChoice choice = choose_torque(capture, input);
+    out.input = choice.input;
+    out.torque_name = choice.name;
+    out.asked = {on_even_grid(capture, *choice.values), capture.sample_time_s, choice.held,
+                 capture.torque_delay_s};
+    out.torque = out.band_limit(out.asked);
+    if (capture.has_position()) out.position = out.band_limit(out.motion.position);
+    out.velocity = out.band_limit(out.motion.velocity);
+    out.acceleration = out.band_limit(out.motion.acceleration);
+}
+
 } // namespace
 
 TorqueChoice choose_torque(const Capture& capture, Input input) {
@@ -184,6 +201,14 @@ Eigen::Index PreparedMotion::used_count() const {
     return std::count(used.begin(), used.end(), true);
 }
 
+PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture) {
+    PreparedMotion out = like;
+    out.capture = &capture;
+    differentiate(capture, out);
+    fill_grid(out, like.input);
+    return out;
+}
+
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options) {
     PreparedMotion out;
     out.capture = &capture;
@@ -198,15 +223,7 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     if (out.motion.size() > 0) out.grid = comparison_grid(out, out.band_Hz);
     refuse_if_short(out);
 
-    const TorqueChoice choice = choose_torque(capture, options.input);
-    out.input = choice.input;
-    out.torque_name = choice.name;
-    out.asked = {on_even_grid(capture, *choice.values), capture.sample_time_s, choice.held,
-                 capture.torque_delay_s};
-    out.torque = out.band_limit(out.asked);
-    if (capture.has_position()) out.position = out.band_limit(out.motion.position);
-    out.velocity = out.band_limit(out.motion.velocity);
-    out.acceleration = out.band_limit(out.motion.acceleration);
+    fill_grid(out, options.input);
     out.used = moving(out);
     const int order = capture.has_position() ? 0 : 1;
     out.velocity_noise = out.position_noise * out.low_pass->noise_gain(1 - order);

@@ -28,6 +28,7 @@ struct PreparedMotion {
     Eigen::VectorXd position, velocity, acceleration; // on the grid
     std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
     double band_Hz = 0;
+    double smoothing_Hz = 0;        // band of `motion`
     std::optional<double> period_s; // stated or found
     double position_noise = 0;      // standard deviation per sample, rad or m
     double acceleration_noise = 0;  // of the band-limited acceleration
@@ -47,6 +48,8 @@ struct PreparedMotion {
 
 // The motion and torque of one capture. Throws Refusal where there is too little of either.
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options);
+// Another capture of the same rows through the very same filters, on the same grid; `used` as there.
+PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture);
 
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency
 // where the noise of the measured position, as torque, reaches a small part of the torque itself,

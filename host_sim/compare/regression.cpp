@@ -299,6 +299,7 @@ std::string coefficient_name(const Model& model, const Coefficient& coefficient)
 }
 
 Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
+    assembler.set_artifact(fitted.artifact);
     assembler.set_context(fitted.model);
     const State s = evaluate(fitted.model, assembler);
     const Matrix x = pick(s.assembly.columns, s.linear.free);
@@ -334,6 +335,8 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     out.torque_error = s.error;
     out.converged = converged;
     out.residual = s.residual, out.torque = s.assembly.torque;
+    out.artifact = assembler.artifact();
+    out.believed_terms = options.believed_terms;
     out.free_parameters = int(s.linear.free.size() + shapes_of(s.model).size());
     add_uncertainty(out, s, assembler, options.uncertainty);
     return out;

@@ -35,7 +35,9 @@ struct FitResult {
     double torque_error = 0;               // ‖T − T̂‖/‖T‖
     bool converged = false;                // false: the bound on iterations was met
     Eigen::VectorXd residual, torque;      // on the used points
+    Eigen::VectorXd artifact;              // what was taken out of the torque beforehand
     int free_parameters = 0;
+    size_t believed_terms = SIZE_MAX; // as in FitOptions
 };
 
 struct FitOptions {

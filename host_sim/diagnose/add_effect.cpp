@@ -65,6 +65,7 @@ SearchData search_data(const FitResult& fitted, const std::vector<PreparedMotion
 
 FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& assembler) {
     const SearchData data = search_data(fitted, assembler.motions());
+    assembler.set_artifact(fitted.artifact);
     assembler.set_context(fitted.model);
     const MotionView& motion = assembler.views()[data.capture];
     if (const std::string why = effect.cannot_show(motion); !why.empty())

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "compare/compare.hpp"
-#include "compare/regression.hpp"
+#include "diagnose/candidates.hpp"
 #include "diagnose/probe.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,19 +23,6 @@ const char* verdict_name(Verdict verdict);
 // A richer form of another effect: not a rival of it, but the same with more freedom.
 bool is_richer_form(const std::string& rich, const std::string& simple);
 
-struct Candidate {
-    std::string effect;
-    double probability = 0;
-    double error_after = NAN;                // on the data it was fitted to
-    double validation_error_after = NAN;     // on blocks it was not fitted to
-    std::vector<FittedParameter> parameters; // of the effect itself
-    std::string signature;
-    std::string note; // why it was not fitted, a parameter on its bound, an alias
-    FitResult fit;    // empty model name where it was not fitted
-    bool fitted = false;
-    bool sound = false; // fitted, every parameter determined and off its bounds
-};
-
 struct Diagnosis {
     Verdict verdict = Verdict::insufficient;
     FitResult before; // the model as it is, every parameter fitted again
@@ -53,7 +39,7 @@ struct Diagnosis {
 double gain_of(const Diagnosis& diagnosis, const Candidate& candidate);
 
 struct DiagnoseOptions {
-    std::function<void(const std::string& effect, double share)> progress; // may be empty
+    Progress progress;
     bool look_ahead = true; // whether what would be left after the best candidate has a name too
 };
 

@@ -74,7 +74,9 @@ SimulatedDrive::SimulatedDrive(const Model& model, const DriveOptions& options,
                                const AxisDescription& axis)
     : sample_time_s_(controller_of(model).sample_time_s), per_count_(per_count_of(model)),
       full_torque_(full_torque_of(model, options)), sensor_error_(axis.sensor_error),
-      axis_(axis, sample_time_s_), random_(options.seed),
+      axis_(axis, sample_time_s_),
+      torque_per_count_(controller_of(model).speed_gain * per_count_ / sample_time_s_),
+      random_(options.seed),
       noise_(0, std::max(options.torque_noise, 1e-300)), noisy_(options.torque_noise > 0),
       position_noise_(options.position_noise), position_random_(~options.seed) {
     const sid_loop_config_t config = loop_config(model, per_count_, full_torque_);
@@ -110,6 +112,14 @@ void SimulatedDrive::set_state(double position, double velocity) {
     loop_.sum_q32 = 0;
 }
 
+void SimulatedDrive::set_first_torque(double reference, double torque) {
+    if (loop_.integral_gain == 0) return;
+    sid_loop_t ahead = loop_;
+    const double now =
+        sid_loop_step(&ahead, to_q8(reference), counts()) / kTorqueUnits * full_torque_;
+    loop_.sum_q32 += std::llround(std::ldexp((torque - now) / torque_per_count_, 32));
+}
+
 DriveSample SimulatedDrive::step_q8(int32_t reference_q8) {
     DriveSample out;
     out.counts = counts();
@@ -122,10 +132,13 @@ DriveSample SimulatedDrive::step_q8(int32_t reference_q8) {
     return out;
 }
 
-DriveSample SimulatedDrive::step(double reference) {
+int32_t SimulatedDrive::to_q8(double reference) const {
     constexpr double limit = 2147483647.0;
-    const double q8 = std::clamp(reference / per_count_ * 256, -limit, limit);
-    DriveSample out = step_q8(int32_t(std::lround(q8)));
+    return int32_t(std::lround(std::clamp(reference / per_count_ * 256, -limit, limit)));
+}
+
+DriveSample SimulatedDrive::step(double reference) {
+    DriveSample out = step_q8(to_q8(reference));
     out.reference = reference;
     return out;
 }

@@ -48,14 +48,18 @@ class SimulatedDrive {
     bool saturated() const { return loop_.saturated_samples > 0; }
     // Starts in motion: the loop's memory is filled as if the axis had moved like that before.
     void set_state(double position, double velocity);
+    // Fills the integrator so that the first step with this reference asks for this torque.
+    void set_first_torque(double reference, double torque);
 
   private:
     void read();
+    int32_t to_q8(double reference) const;
 
     double sample_time_s_, per_count_, full_torque_;
     std::function<double(double)> sensor_error_;
     Axis axis_;
     sid_loop_t loop_{};
+    double torque_per_count_; // asked for one count of speed error, without the integrator
     std::mt19937_64 random_;
     std::normal_distribution<double> noise_;
     bool noisy_;

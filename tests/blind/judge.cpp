@@ -184,6 +184,7 @@ std::string describe(const Case& c, const Verdict& v, bool verbose) {
         for (const servoid::FittedParameter& p : k.parameters)
             out += fmt::format(" {} {:.5g}±{:.2g}", last_part(p.name), p.estimate.value,
                                p.estimate.std);
+        if (k.noise_gain > 0) out += fmt::format(" (noise would gain {:.3f})", k.noise_gain);
         if (!k.note.empty()) out += " [" + k.note + "]";
     }
     for (const ParameterCheck& p : v.parameters)

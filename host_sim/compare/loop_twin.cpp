@@ -1,0 +1,89 @@
+#include "compare/loop_twin.hpp"
+
+#include "plant/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid {
+
+namespace {
+
+using Values = std::vector<double>;
+
+// Straight line through the first positions: the velocity the record starts with.
+double first_velocity(const Capture& capture) {
+    const size_t n = std::min<size_t>(8, capture.rows());
+    double st = 0, sp = 0, stt = 0, stp = 0;
+    for (size_t i = 0; i < n; ++i) {
+        const double t = double(i) * capture.sample_time_s, p = capture.position[i];
+        st += t, sp += p, stt += t * t, stp += t * p;
+    }
+    const double m = double(n);
+    return (stp - st * sp / m) / (stt - st * st / m);
+}
+
+bool can_simulate(const Model& model, const Capture& capture) {
+    if (!model.controller || capture.position_ref.empty() || !capture.has_position()) return false;
+    if (!capture.uniform || capture.torque_in_ampere || capture.rows() < 8) return false;
+    const double ratio = model.controller->sample_time_s / capture.sample_time_s;
+    return std::abs(ratio - 1) <= 0.01;
+}
+
+const Values& torque_of(const Capture& capture) {
+    return capture.torque_ref.empty() ? capture.torque : capture.torque_ref;
+}
+
+// Rows to a period, where the motion at the record's start is already the one that repeats.
+size_t rows_before(const Capture& capture) {
+    if (!capture.period_s) return 0;
+    const auto period = size_t(std::lround(*capture.period_s / capture.sample_time_s));
+    if (period < 16 || capture.rows() < 2 * period) return 0;
+    const auto differs = [&](size_t from, size_t to) {
+        double sum = 0;
+        for (size_t i = from; i < to; ++i)
+            sum += std::abs(capture.position[i + period] - capture.position[i]);
+        return sum / double(to - from);
+    };
+    const double start = differs(0, period / 8), end = differs(period - period / 8, period);
+    return start <= 3 * end + capture.position_quantum ? period : 0;
+}
+
+double counted(double value, double quantum) {
+    return quantum > 0 ? std::round(value / quantum) * quantum : value;
+}
+
+Model with_encoder(Model model, const Capture& capture) {
+    if (!(model.sensor.position_per_count > 0))
+        model.sensor.position_per_count = capture.position_quantum;
+    return model;
+}
+
+} // namespace
+
+std::optional<Capture> loop_twin(const Model& model, const Capture& capture,
+                                 const TwinNoise& noise) {
+    if (!can_simulate(model, capture)) return std::nullopt;
+    const Values& torque = torque_of(capture);
+    DriveOptions options;
+    options.seed = noise.seed, options.torque_noise = noise.torque;
+    for (double t : torque)
+        options.full_torque = std::max(options.full_torque, std::abs(t) / 4);
+    SimulatedDrive drive(with_encoder(model, capture), options);
+    drive.set_state(capture.position.front(), first_velocity(capture));
+    drive.set_first_torque(capture.position_ref.front(), torque.front());
+    for (size_t i = 0, n = rows_before(capture); i < n; ++i)
+        drive.step(capture.position_ref[i]);
+    Capture out = capture;
+    out.path = capture.path + " (simulated)";
+    out.velocity.clear(), out.load_position.clear();
+    Values& answer = capture.torque_ref.empty() ? out.torque : out.torque_ref;
+    for (size_t i = 0; i < capture.rows(); ++i) {
+        const DriveSample s = drive.step(capture.position_ref[i]);
+        answer[i] = counted(s.torque, capture.torque_quantum);
+        out.position[i] = s.position;
+    }
+    return out;
+}
+
+} // namespace servoid

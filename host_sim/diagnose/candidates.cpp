@@ -1,0 +1,156 @@
+#include "diagnose/candidates.hpp"
+
+#include "common/error.hpp"
+#include "diagnose/add_effect.hpp"
+#include "diagnose/evidence.hpp"
+#include "diagnose/twin.hpp"
+#include "effects/catalogue.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <future>
+
+namespace servoid {
+
+namespace {
+
+constexpr size_t kMostPolished = 6;
+constexpr double kWorthPolishing = 2; // times the least held-out error
+
+// A gain of the torque is taken up by inertia and friction together: never a finding unless one of
+// them is held.
+bool is_alias(const Effect& effect, const Model& model) {
+    if (effect.info().name != "torque_gain") return false;
+    if (model.inertia_fixed) return false;
+    return std::none_of(model.effects.begin(), model.effects.end(),
+                        [](const EffectTerm& t) { return !t.fixed.empty(); });
+}
+
+// A sine of time at a harmonic of a repeated move cannot be told from what the move itself causes.
+bool is_harmonic(const Candidate& c, const std::vector<PreparedMotion>& motions) {
+    if (c.effect != "periodic_disturbance") return false;
+    for (const PreparedMotion& m : motions) {
+        if (!m.period_s) return false;
+        const double cycles = c.fit.model.effects.back().at("frequency") * *m.period_s;
+        const double periods = double(m.grid.count) * m.grid.step_s / *m.period_s;
+        if (std::abs(cycles - std::round(cycles)) > 0.25 / periods) return false;
+    }
+    return true;
+}
+
+// Angles and damping ratios may be as uncertain as they like; all else has to be there.
+bool must_be_known(const FittedParameter& p) {
+    return p.quantity != Quantity::angle && !p.name.ends_with("damping") &&
+           !p.name.ends_with("rest_position") && !p.fixed;
+}
+
+// What keeps a fitted candidate from being an answer, or "".
+std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& before,
+                     const Assembler& assembler) {
+    std::string out;
+    for (const FittedParameter& p : c.parameters) {
+        if (p.at_bound)
+            out = p.name + " is on its bound";
+        else if (must_be_known(p) && !(2 * p.estimate.std < std::abs(p.estimate.value)))
+            out = p.name + " is not determined";
+    }
+    const std::string why =
+        effect.implausible(c.fit.model.effects.back(), assembler.views().front());
+    if (!why.empty()) out = why;
+    if (c.fit.torque.norm() < 0.7 * before.torque.norm())
+        out = "far less torque than moved the axis";
+    if (is_harmonic(c, assembler.motions()))
+        out = "a harmonic of the repeated move: another period shows it";
+    if (c.error_after >= before.torque_error) out = "it does not help";
+    return out;
+}
+
+// Fills in what a fit says of its last effect.
+void describe(Candidate& c, const Effect& effect, const FitResult& before, Assembler& assembler) {
+    c.error_after = c.fit.torque_error;
+    c.validation_error_after = held_out_error(c.fit, assembler);
+    const std::string prefix = effect.info().name;
+    c.parameters.clear();
+    for (const FittedParameter& p : c.fit.parameters) {
+        const size_t dot = p.name.find('.');
+        const std::string term = p.name.substr(0, dot);
+        if (term != prefix && !term.starts_with(prefix + "#")) continue;
+        c.parameters.push_back(p);
+        c.parameters.back().name = p.name.substr(dot + 1);
+    }
+    const size_t own = effect.info().parameters.size(); // the last of several of the same name
+    c.parameters.erase(c.parameters.begin(), c.parameters.end() - long(own));
+    c.note = fault_of(c, effect, before, assembler);
+    c.sound = c.note.empty();
+    if (!c.fit.converged && c.sound) c.note = "the fit met its bound on iterations";
+}
+
+Candidate try_effect(const FitResult& before, const Effect& effect, Assembler& assembler) {
+    Candidate c;
+    c.effect = effect.info().name;
+    c.signature = effect.info().signature;
+    if (is_alias(effect, before.model)) {
+        c.note = "the same as other inertia and friction: fix one of them to see it";
+        return c;
+    }
+    try {
+        c.fit = fit_with(before, effect, assembler);
+        c.fitted = true;
+        describe(c, effect, before, assembler);
+    } catch (const Refusal& refusal) {
+        c.note = refusal.what();
+    }
+    return c;
+}
+
+// work(i, assembler, reports) for i < count, by two threads: each has its own assembler, and takes
+// the next when it has done one.
+template <class Work>
+void share_out(size_t count, const std::vector<PreparedMotion>& motions, const Work& work) {
+    std::atomic<size_t> next = 0;
+    const auto worker = [&](bool reports) {
+        Assembler assembler(motions);
+        for (size_t i = next++; i < count; i = next++)
+            work(i, assembler, reports);
+    };
+    std::future<void> other = std::async(std::launch::async, worker, false);
+    worker(true);
+    other.get();
+}
+
+} // namespace
+
+std::vector<Candidate> try_all(const FitResult& before, const std::vector<PreparedMotion>& motions,
+                               const Progress& progress) {
+    std::vector<const Effect*> effects;
+    for (const Effect* effect : catalogue())
+        if (cannot_add(*effect, before.model).empty()) effects.push_back(effect);
+    std::vector<Candidate> out(effects.size());
+    share_out(effects.size(), motions, [&](size_t i, Assembler& assembler, bool reports) {
+        if (reports && progress)
+            progress(effects[i]->info().name, double(i) / double(effects.size()));
+        out[i] = try_effect(before, *effects[i], assembler);
+    });
+    return out;
+}
+
+void polish_best(std::vector<Candidate>& candidates, const FitResult& before,
+                 const std::vector<PreparedMotion>& motions) {
+    std::vector<Candidate*> best;
+    for (Candidate& c : candidates)
+        if (c.sound) best.push_back(&c);
+    std::sort(best.begin(), best.end(), [](const Candidate* a, const Candidate* b) {
+        return a->validation_error_after < b->validation_error_after;
+    });
+    while (!best.empty() && (best.size() > kMostPolished ||
+                             best.back()->validation_error_after >
+                                 kWorthPolishing * best.front()->validation_error_after))
+        best.pop_back();
+    share_out(best.size(), motions, [&](size_t i, Assembler& assembler, bool) {
+        best[i]->fit = without_artifact(best[i]->fit, assembler);
+        describe(*best[i], *find_effect(best[i]->effect), before, assembler);
+    });
+}
+
+} // namespace servoid

@@ -1,0 +1,147 @@
+#include "diagnose/twin.hpp"
+
+#include "common/error.hpp"
+#include "compare/compare.hpp"
+#include "compare/linear_fit.hpp"
+#include "compare/loop_twin.hpp"
+#include "diagnose/add_effect.hpp"
+#include "diagnose/evidence.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace servoid {
+
+namespace {
+
+constexpr int kArtifactTwins = 3; // their mean is taken: noise of the sensors is in each
+constexpr int kNoiseTwins = 2;
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+double rms(const Vector& x) { return x.size() ? x.norm() / std::sqrt(double(x.size())) : 0; }
+
+// A model that is far from the truth may leave its reference: its twin says nothing.
+bool moves_alike(const PreparedMotion& twin, const PreparedMotion& measured) {
+    const double ratio = rms(twin.velocity) / rms(measured.velocity);
+    return std::isfinite(ratio) && ratio > 0.7 && ratio < 1.4;
+}
+
+// Size of a residual that may have a few large excursions.
+double robust_rms(const Vector& x) {
+    if (x.size() == 0) return 0;
+    std::vector<double> size(x.begin(), x.end());
+    for (double& s : size)
+        s = std::abs(s);
+    std::nth_element(size.begin(), size.begin() + long(size.size() / 2), size.end());
+    return std::min(rms(x), 1.4826 * size[size.size() / 2]);
+}
+
+Vector residual_of(const Model& model, const TwinSet& twins, Eigen::Index rows) {
+    Vector out(rows);
+    Eigen::Index row = 0;
+    for (const PreparedMotion& m : twins.motions) {
+        const Vector all = residual_torque(model, m);
+        for (Eigen::Index k = 0; k < all.size(); ++k)
+            if (m.used[size_t(k)]) out[row++] = all[k];
+    }
+    return out;
+}
+
+// Mean residual of the model along twins of its own; empty where there are none.
+Vector artifact_of(const FitResult& fitted, const std::vector<PreparedMotion>& motions) {
+    Vector sum = Vector::Zero(fitted.residual.size());
+    const double noise = robust_rms(fitted.residual);
+    for (int i = 0; i < kArtifactTwins; ++i) {
+        const auto twins = make_twins(fitted.model, motions, noise, 101 + unsigned(i));
+        if (!twins) return {};
+        sum += residual_of(fitted.model, *twins, sum.size());
+    }
+    return sum / kArtifactTwins;
+}
+
+// How much of the artifact the residual shows, beyond what the fit could take up: 0 … 1.
+double share_shown(const Vector& residual, const Vector& artifact, const Matrix& slopes) {
+    const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+    const Matrix x = slopes * scale.asDiagonal();
+    Matrix gram = x.transpose() * x;
+    gram.diagonal().array() += 1e-9;
+    const Eigen::LDLT<Matrix> solver(gram);
+    const Vector left = artifact - x * solver.solve(x.transpose() * artifact);
+    const Vector seen = residual - x * solver.solve(x.transpose() * residual);
+    const double power = left.squaredNorm();
+    return power > 0 ? std::clamp(left.dot(seen) / power, 0.0, 1.0) : 0;
+}
+
+// A fit may end where no axis is (a resonance below its antiresonance): it has no twin.
+std::optional<Capture> simulated(const Model& model, const Capture& recorded,
+                                 const TwinNoise& noise) {
+    try {
+        return loop_twin(model, recorded, noise);
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+std::optional<TwinSet> make_twins(const Model& model, const std::vector<PreparedMotion>& motions,
+                                  double noise, unsigned long seed) {
+    TwinSet out;
+    for (size_t i = 0; i < motions.size(); ++i) {
+        const PreparedMotion& m = motions[i];
+        if (m.input != Input::reference) return std::nullopt;
+        Capture recorded = *m.capture;
+        recorded.period_s = m.period_s;
+        const TwinNoise white{noise / m.low_pass->noise_gain(0), seed + 1000 * i};
+        std::optional<Capture> twin = simulated(model, recorded, white);
+        if (!twin) return std::nullopt;
+        out.captures.push_back(std::make_unique<Capture>(std::move(*twin)));
+        out.motions.push_back(prepare_like(m, *out.captures.back()));
+        if (!moves_alike(out.motions.back(), m)) return std::nullopt;
+    }
+    return out;
+}
+
+FitResult without_artifact(const FitResult& fitted, Assembler& assembler) {
+    const Vector artifact = artifact_of(fitted, assembler.motions());
+    if (artifact.size() == 0) return fitted;
+    const Vector raw = fitted.residual + fitted.artifact;
+    const double share = share_shown(raw, artifact, joint_slopes(fitted, assembler));
+    assembler.set_artifact(share * artifact);
+    FitOptions options;
+    options.believed_terms = fitted.believed_terms;
+    try {
+        FitResult out = fit(fitted.model, assembler, options);
+        if (out.torque_error < fitted.torque_error) return out;
+    } catch (const Refusal&) {
+    }
+    assembler.set_artifact(fitted.artifact);
+    return fitted;
+}
+
+std::optional<double> gain_from_noise(const FitResult& fitted, const Effect& effect,
+                                      Assembler& assembler) {
+    double most = 0;
+    for (int i = 0; i < kNoiseTwins; ++i) {
+        const auto twins =
+            make_twins(fitted.model, assembler.motions(), rms(fitted.residual), 201 + unsigned(i));
+        if (!twins) return std::nullopt;
+        Assembler own(twins->motions);
+        own.set_artifact(fitted.artifact);
+        try {
+            const FitResult before = fit(fitted.model, own);
+            const FitResult after = fit_with(before, effect, own);
+            most = std::max(most,
+                            std::log(held_out_error(before, own) / held_out_error(after, own)));
+        } catch (const Refusal&) {
+        }
+    }
+    return most;
+}
+
+} // namespace servoid
