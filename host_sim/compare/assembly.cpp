@@ -17,6 +17,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kBlocksPerCapture = 24;
 constexpr size_t kMostCached = 400;
+constexpr int kMostPasses = 20; // 0.6 of friction per torque leaves 4e-5
 
 const Effect& effect_of(const EffectTerm& term) {
     const Effect* effect = find_effect(term.name);
@@ -107,13 +108,16 @@ MotionView in_context(const Model& model, MotionView view) {
             view.torque += effect.columns(term, view) * effect.linear(term);
     }
     const Vector torque = view.torque;
-    for (int pass = 0; pass < 2; ++pass) {
+    // Each pass leaves a share of its change: the friction per torque, or the depth of a ripple.
+    for (int pass = 0; pass < kMostPasses; ++pass) {
         Vector more = torque;
         for (const EffectTerm& term : model.effects) {
             const Effect& effect = effect_of(term);
             if (effect.uses_torque()) more += effect.columns(term, view) * effect.linear(term);
         }
+        const double change = (more - view.torque).norm();
         view.torque = more;
+        if (change <= 1e-4 * more.norm()) break;
     }
     return view;
 }

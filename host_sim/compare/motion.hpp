@@ -48,7 +48,8 @@ struct PreparedMotion {
 
 // The motion and torque of one capture. Throws Refusal where there is too little of either.
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options);
-// Another capture of the same rows through the very same filters, on the same grid; `used` as there.
+// Another capture of the same rows through the very same filters, on the same grid; `used` as
+// there.
 PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture);
 
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency

@@ -23,6 +23,8 @@ struct Shape {
     size_t term;
     std::string key;
     double lower, upper;
+    double step = 1e-4;            // relative, for slopes
+    double belief = 0, weight = 0; // what pulls it back: weight·(value − belief)²
 };
 
 std::vector<Shape> shapes_of(const Model& model, size_t first = 0) {
@@ -33,7 +35,7 @@ std::vector<Shape> shapes_of(const Model& model, size_t first = 0) {
         for (const std::string& key : effect.shape_keys()) {
             if (term.is_fixed(key)) continue;
             for (const ParameterInfo& p : effect.info().parameters)
-                if (p.key == key) out.push_back({i, key, p.lower, p.upper});
+                if (p.key == key) out.push_back({i, key, p.lower, p.upper, effect.slope_step()});
         }
     }
     return out;
@@ -71,7 +73,7 @@ State evaluate(const Model& model, Assembler& assembler) {
 }
 
 double step_of(const Shape& shape, double value) {
-    const double step = 1e-4 * std::max(std::abs(value), 1e-12);
+    const double step = shape.step * std::max(std::abs(value), 1e-12);
     return value + step <= shape.upper ? step : -step;
 }
 
@@ -103,22 +105,36 @@ Model moved_by(const State& s, const std::vector<Shape>& shapes, const Vector& b
     return out;
 }
 
-// A shape that the user believes in moves by half of itself at most: where the motion does not show
-// it, it would else run away and take up what something else has caused.
-void stay_near_beliefs(std::vector<Shape>& shapes, const Model& model, size_t believed_terms) {
+// A shape that the user believes in is known to some ten per cent. Where the motion does not show
+// it, it would else run away and take up what something else has caused; where it does, the belief
+// weighs nothing. Residuals are correlated: as if one in ten samples were independent.
+void stay_near_beliefs(std::vector<Shape>& shapes, const State& s, size_t believed_terms) {
+    constexpr double kBelief = 0.1, kCorrelated = 10;
     for (Shape& shape : shapes) {
-        const double value = model.effects[shape.term].at(shape.key);
+        const double value = s.model.effects[shape.term].at(shape.key);
         if (shape.term >= believed_terms || !(value > 0)) continue;
         shape.lower = std::max(shape.lower, value / 1.5);
         shape.upper = std::min(shape.upper, value * 1.5);
+        shape.belief = value;
+        shape.weight = kCorrelated * s.residual.squaredNorm() / double(s.residual.size()) /
+                       std::pow(kBelief * value, 2);
     }
+}
+
+// What the descent makes small: the power of the residual and the distance from what is believed.
+double objective(const State& s, const std::vector<Shape>& shapes) {
+    if (!std::isfinite(s.error)) return INFINITY;
+    double sum = s.residual.squaredNorm();
+    for (const Shape& shape : shapes)
+        sum += shape.weight * std::pow(s.model.effects[shape.term].at(shape.key) - shape.belief, 2);
+    return sum;
 }
 
 // Levenberg-Marquardt over the shapes on the projected residual (Kaufman's simplification). Returns
 // whether it came to rest.
 bool descend(State& s, Assembler& assembler, const FitOptions& options) {
     std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
-    stay_near_beliefs(shapes, s.model, options.believed_terms);
+    stay_near_beliefs(shapes, s, options.believed_terms);
     if (shapes.empty()) return true;
     double damping = 1e-3;
     for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
@@ -127,22 +143,28 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
         if (x.cols() > 0) slopes -= x * (x.transpose() * x).ldlt().solve(x.transpose() * slopes);
         const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
         slopes = slopes * scale.asDiagonal();
-        const Matrix normal = slopes.transpose() * slopes;
-        const Vector gradient = slopes.transpose() * s.residual;
+        Matrix normal = slopes.transpose() * slopes;
+        Vector gradient = slopes.transpose() * s.residual;
+        for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+            const Shape& shape = shapes[size_t(i)];
+            const double value = s.model.effects[shape.term].at(shape.key);
+            normal(i, i) += shape.weight * scale[i] * scale[i];
+            gradient[i] += shape.weight * scale[i] * (value - shape.belief);
+        }
         bool better = false;
-        const double before = s.error;
+        const double before = objective(s, shapes);
         for (int attempt = 0; attempt < 5 && !better; ++attempt) {
             Matrix damped = normal;
             damped.diagonal().array() += damping;
             const Vector by = -(scale.asDiagonal() * damped.ldlt().solve(gradient));
             State next = evaluate(moved_by(s, shapes, by), assembler);
-            better = next.error < s.error;
+            better = objective(next, shapes) < before;
             if (better)
                 s = std::move(next), damping = std::max(1e-9, damping / 8);
             else
                 damping *= 10;
         }
-        if (!better || before - s.error < 1e-6 * before) return true;
+        if (!better || before - objective(s, shapes) < 2e-6 * before) return true;
     }
     return false;
 }
@@ -198,9 +220,9 @@ std::string term_name(const Model& model, size_t term) {
 
 // The parameters of a term against the joint vector, by differences: amplitude and phase from two
 // coefficients, for instance.
-std::vector<double> term_variance(const State& s, size_t term, const Joint& joint,
+std::vector<double> term_variance(const FitResult& fitted, size_t term, const Joint& joint,
                                   const Matrix& covariance) {
-    const EffectTerm& base = s.model.effects[term];
+    const EffectTerm& base = fitted.model.effects[term];
     const Effect& effect = *find_effect(base.name);
     const auto n = Eigen::Index(joint.free.size() + joint.shapes.size());
     Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), n);
@@ -211,7 +233,7 @@ std::vector<double> term_variance(const State& s, size_t term, const Joint& join
     };
     const Vector linear = effect.linear(base);
     for (size_t i = 0; i < joint.free.size(); ++i) {
-        const Coefficient& c = s.assembly.coefficients[size_t(joint.free[i])];
+        const Coefficient& c = fitted.coefficients[size_t(joint.free[i])];
         if (c.term != int(term)) continue;
         Vector moved = linear;
         const double step = 1e-6 * std::max(linear.cwiseAbs().maxCoeff(), 1e-12);
@@ -244,7 +266,8 @@ bool on_bound(const FitResult& out, int term, int index) {
     return false;
 }
 
-void list_parameters(FitResult& out, const State& s, const Joint& joint, const Matrix& cov) {
+void list_parameters(FitResult& out, const Joint& joint, const Matrix& cov) {
+    out.parameters.clear(), out.at_bound.clear();
     FittedParameter inertia{
         "inertia", Quantity::inertia, {out.values[0], out.std[0]}, out.model.inertia_fixed, false};
     out.parameters.push_back(inertia);
@@ -252,7 +275,7 @@ void list_parameters(FitResult& out, const State& s, const Joint& joint, const M
         const EffectTerm& term = out.model.effects[t];
         const Effect& effect = *find_effect(term.name);
         std::vector<double> variance(term.parameters.size(), 0.0);
-        if (cov.size()) variance = term_variance(s, t, joint, cov);
+        if (cov.size()) variance = term_variance(out, t, joint, cov);
         int index = 0;
         for (const ParameterInfo& p : effect.info().parameters) {
             const auto place = std::distance(term.parameters.begin(), term.parameters.find(p.key));
@@ -268,25 +291,21 @@ void list_parameters(FitResult& out, const State& s, const Joint& joint, const M
     }
 }
 
-void add_uncertainty(FitResult& out, const State& s, Assembler& assembler, bool wanted) {
-    Joint joint{{}, s.linear.free, shapes_of(s.model)};
+// Standard deviations and covariance from the joint slopes, which may have no columns.
+void add_uncertainty(FitResult& out, const Joint& joint) {
     out.std = Vector::Zero(out.values.size());
     out.covariance = Matrix::Zero(out.values.size(), out.values.size());
     Matrix cov;
-    if (wanted) {
-        const Matrix x = pick(s.assembly.columns, joint.free);
-        joint.slopes.resize(x.rows(), x.cols() + Eigen::Index(joint.shapes.size()));
-        joint.slopes << x, -shape_slopes(s, joint.shapes, assembler);
-        cov = block_covariance(joint.slopes, s.residual, s.assembly.block);
+    if (joint.slopes.cols() > 0) {
+        cov = block_covariance(joint.slopes, out.residual, out.block);
         for (size_t i = 0; i < joint.free.size(); ++i) {
             out.std[joint.free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
             for (size_t j = 0; j < joint.free.size(); ++j)
                 out.covariance(joint.free[i], joint.free[j]) =
                     cov(Eigen::Index(i), Eigen::Index(j));
         }
-        out.condition = condition_of(x);
     }
-    list_parameters(out, s, joint, cov);
+    list_parameters(out, joint, cov);
 }
 
 } // namespace
@@ -334,11 +353,18 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     out.values = s.linear.values;
     out.torque_error = s.error;
     out.converged = converged;
-    out.residual = s.residual, out.torque = s.assembly.torque;
+    out.residual = s.residual, out.torque = s.assembly.torque, out.block = s.assembly.block;
     out.artifact = assembler.artifact();
     out.believed_terms = options.believed_terms;
     out.free_parameters = int(s.linear.free.size() + shapes_of(s.model).size());
-    add_uncertainty(out, s, assembler, options.uncertainty);
+    Joint joint{{}, s.linear.free, shapes_of(s.model)};
+    if (options.uncertainty) {
+        const Matrix x = pick(s.assembly.columns, joint.free);
+        joint.slopes.resize(x.rows(), x.cols() + Eigen::Index(joint.shapes.size()));
+        joint.slopes << x, -shape_slopes(s, joint.shapes, assembler);
+        out.condition = condition_of(x);
+    }
+    add_uncertainty(out, joint);
     return out;
 }
 

@@ -35,6 +35,7 @@ struct FitResult {
     double torque_error = 0;               // ‖T − T̂‖/‖T‖
     bool converged = false;                // false: the bound on iterations was met
     Eigen::VectorXd residual, torque;      // on the used points
+    std::vector<int> block;                // of the used points, for correlated errors
     Eigen::VectorXd artifact;              // what was taken out of the torque beforehand
     int free_parameters = 0;
     size_t believed_terms = SIZE_MAX; // as in FitOptions

@@ -15,7 +15,9 @@ namespace servoid {
 
 namespace {
 
+constexpr int kMostRounds = 4;
 constexpr size_t kMostPolished = 6;
+constexpr double kChanges = 0.9;      // error after over before
 constexpr double kWorthPolishing = 2; // times the least held-out error
 
 // A gain of the torque is taken up by inertia and friction together: never a finding unless one of
@@ -138,8 +140,8 @@ std::vector<Candidate> try_all(const FitResult& before, const std::vector<Prepar
 void polish_best(std::vector<Candidate>& candidates, const FitResult& before,
                  const std::vector<PreparedMotion>& motions) {
     std::vector<Candidate*> best;
-    for (Candidate& c : candidates)
-        if (c.sound) best.push_back(&c);
+    for (Candidate& c : candidates) // one that changes little has the artifact of the model before
+        if (c.sound && c.error_after < kChanges * before.torque_error) best.push_back(&c);
     std::sort(best.begin(), best.end(), [](const Candidate* a, const Candidate* b) {
         return a->validation_error_after < b->validation_error_after;
     });
@@ -148,9 +150,14 @@ void polish_best(std::vector<Candidate>& candidates, const FitResult& before,
                                  kWorthPolishing * best.front()->validation_error_after))
         best.pop_back();
     share_out(best.size(), motions, [&](size_t i, Assembler& assembler, bool) {
-        best[i]->fit = without_artifact(best[i]->fit, assembler);
+        best[i]->fit = without_artifact(best[i]->fit, assembler, 1);
         describe(*best[i], *find_effect(best[i]->effect), before, assembler);
     });
+}
+
+void finish(Candidate& candidate, const FitResult& before, Assembler& assembler) {
+    candidate.fit = without_artifact(candidate.fit, assembler, kMostRounds);
+    describe(candidate, *find_effect(candidate.effect), before, assembler);
 }
 
 } // namespace servoid

@@ -21,7 +21,7 @@ struct Candidate {
     FitResult fit;    // empty model name where it was not fitted
     bool fitted = false;
     double noise_gain = NAN; // fall of ln(error) that noise alone would cause; NaN: not asked
-    bool sound = false; // fitted, every parameter determined and off its bounds
+    bool sound = false;      // fitted, every parameter determined and off its bounds
 };
 
 using Progress = std::function<void(const std::string& effect, double share)>; // may be empty
@@ -33,5 +33,8 @@ std::vector<Candidate> try_all(const FitResult& before, const std::vector<Prepar
 // The best few again, without what the method itself leaves of each (twin.hpp).
 void polish_best(std::vector<Candidate>& candidates, const FitResult& before,
                  const std::vector<PreparedMotion>& motions);
+
+// One of them to the end: several rounds of that.
+void finish(Candidate& candidate, const FitResult& before, Assembler& assembler);
 
 } // namespace servoid

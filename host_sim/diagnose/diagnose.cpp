@@ -12,9 +12,10 @@ namespace servoid {
 
 namespace {
 
-constexpr double kSure = 0.9;          // probability from which one candidate stands alone
-constexpr double kLeastGain = 0.03;    // of the residual's power: less is not worth a name
-constexpr double kNearFloor = 1.15;    // times the floor: the residual is noise
+constexpr double kSure = 0.9;           // probability from which one candidate stands alone
+constexpr double kLeastGain = 0.03;     // of the residual's power: less is not worth a name
+constexpr double kNearFloor = 1.15;     // times the floor: the residual is noise
+constexpr double kWorthFinishing = 0.3; // probability
 constexpr double kSlight = 0.002; // of the torque: what takes away less is below what a simulation,
                                   // a filter and a sample's width agree on
 constexpr double kProbeExplains = 0.6; // of what is left: something depends on that variable
@@ -59,9 +60,8 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
         const bool structured =
             !d.probes.empty() && d.probes[0].explained > kProbeExplains && d.probes[0].z > 3 &&
             std::sqrt(d.probes[0].explained) * d.validation_error_before > kSlight;
-        const bool repeats =
-            d.floor_from_repetition &&
-            d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
+        const bool repeats = d.floor_from_repetition &&
+                             d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
         return structured || repeats ? Verdict::unknown : Verdict::adequate;
     }
     if (look_ahead && unexplained(d, d.candidates.front(), assembler, d.probes))
@@ -99,7 +99,7 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
                    const DiagnoseOptions& options) {
     Assembler assembler(motions);
     Diagnosis d;
-    d.before = without_artifact(fit(model, assembler), assembler);
+    d.before = without_artifact(fit(model, assembler), assembler, 2);
     d.error_before = d.before.torque_error;
     d.validation_error_before = held_out_error(d.before, assembler);
     const NoiseFloor floor = noise_floor_of_all(d.before.model, motions);
@@ -109,6 +109,10 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     d.candidates = try_all(d.before, motions, options.progress);
     polish_best(d.candidates, d.before, motions);
     weigh(d, assembler);
+    if (d.candidates.front().sound && d.candidates.front().probability > kWorthFinishing) {
+        finish(d.candidates.front(), d.before, assembler);
+        weigh(d, assembler);
+    }
     d.verdict = judge(d, assembler, options.look_ahead);
     d.advice = advice_for(d);
     return d;

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kArtifactTwins = 3; // their mean is taken: noise of the sensors is in each
 constexpr int kNoiseTwins = 2;
+constexpr double kWorthARound = 0.97; // of the error before it
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -31,6 +32,19 @@ bool moves_alike(const PreparedMotion& twin, const PreparedMotion& measured) {
     return std::isfinite(ratio) && ratio > 0.7 && ratio < 1.4;
 }
 
+Vector residual_of(const Model& model, const TwinSet& twins) {
+    Eigen::Index rows = 0, row = 0;
+    for (const PreparedMotion& m : twins.motions)
+        rows += m.used_count();
+    Vector out(rows);
+    for (const PreparedMotion& m : twins.motions) {
+        const Vector all = residual_torque(model, m);
+        for (Eigen::Index k = 0; k < all.size(); ++k)
+            if (m.used[size_t(k)]) out[row++] = all[k];
+    }
+    return out;
+}
+
 // Size of a residual that may have a few large excursions.
 double robust_rms(const Vector& x) {
     if (x.size() == 0) return 0;
@@ -41,25 +55,14 @@ double robust_rms(const Vector& x) {
     return std::min(rms(x), 1.4826 * size[size.size() / 2]);
 }
 
-Vector residual_of(const Model& model, const TwinSet& twins, Eigen::Index rows) {
-    Vector out(rows);
-    Eigen::Index row = 0;
-    for (const PreparedMotion& m : twins.motions) {
-        const Vector all = residual_torque(model, m);
-        for (Eigen::Index k = 0; k < all.size(); ++k)
-            if (m.used[size_t(k)]) out[row++] = all[k];
-    }
-    return out;
-}
-
-// Mean residual of the model along twins of its own; empty where there are none.
-Vector artifact_of(const FitResult& fitted, const std::vector<PreparedMotion>& motions) {
-    Vector sum = Vector::Zero(fitted.residual.size());
-    const double noise = robust_rms(fitted.residual);
+// Mean of what the model leaves along twins of its own; empty where there are none.
+Vector artifact_of(const Model& model, const std::vector<PreparedMotion>& motions, double noise) {
+    Vector sum;
     for (int i = 0; i < kArtifactTwins; ++i) {
-        const auto twins = make_twins(fitted.model, motions, noise, 101 + unsigned(i));
+        const auto twins = make_twins(model, motions, noise, 101 + unsigned(i));
         if (!twins) return {};
-        sum += residual_of(fitted.model, *twins, sum.size());
+        const Vector one = residual_of(model, *twins);
+        sum = i ? Vector(sum + one) : one;
     }
     return sum / kArtifactTwins;
 }
@@ -87,6 +90,23 @@ std::optional<Capture> simulated(const Model& model, const Capture& recorded,
     }
 }
 
+// One round: the artifact of the fitted model out of the torque, and the fit again.
+std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assembler) {
+    const Vector artifact =
+        artifact_of(fitted.model, assembler.motions(), robust_rms(fitted.residual));
+    if (artifact.size() == 0) return std::nullopt;
+    const Vector raw = fitted.residual + fitted.artifact;
+    const double share = share_shown(raw, artifact, joint_slopes(fitted, assembler));
+    assembler.set_artifact(share * artifact);
+    FitOptions options;
+    options.believed_terms = fitted.believed_terms;
+    try {
+        return fit(fitted.model, assembler, options);
+    } catch (const Refusal&) {
+        return std::nullopt;
+    }
+}
+
 } // namespace
 
 std::optional<TwinSet> make_twins(const Model& model, const std::vector<PreparedMotion>& motions,
@@ -107,21 +127,18 @@ std::optional<TwinSet> make_twins(const Model& model, const std::vector<Prepared
     return out;
 }
 
-FitResult without_artifact(const FitResult& fitted, Assembler& assembler) {
-    const Vector artifact = artifact_of(fitted, assembler.motions());
-    if (artifact.size() == 0) return fitted;
-    const Vector raw = fitted.residual + fitted.artifact;
-    const double share = share_shown(raw, artifact, joint_slopes(fitted, assembler));
-    assembler.set_artifact(share * artifact);
-    FitOptions options;
-    options.believed_terms = fitted.believed_terms;
-    try {
-        FitResult out = fit(fitted.model, assembler, options);
-        if (out.torque_error < fitted.torque_error) return out;
-    } catch (const Refusal&) {
+FitResult without_artifact(const FitResult& fitted, Assembler& assembler, int rounds) {
+    FitResult best = fitted;
+    for (int i = 0; i < rounds; ++i) {
+        std::optional<FitResult> next = freed_once(best, assembler);
+        if (!next || next->torque_error > kWorthARound * best.torque_error) {
+            if (next && next->torque_error < best.torque_error) best = std::move(*next);
+            break;
+        }
+        best = std::move(*next);
     }
-    assembler.set_artifact(fitted.artifact);
-    return fitted;
+    assembler.set_artifact(best.artifact);
+    return best;
 }
 
 std::optional<double> gain_from_noise(const FitResult& fitted, const Effect& effect,
@@ -136,8 +153,8 @@ std::optional<double> gain_from_noise(const FitResult& fitted, const Effect& eff
         try {
             const FitResult before = fit(fitted.model, own);
             const FitResult after = fit_with(before, effect, own);
-            most = std::max(most,
-                            std::log(held_out_error(before, own) / held_out_error(after, own)));
+            most =
+                std::max(most, std::log(held_out_error(before, own) / held_out_error(after, own)));
         } catch (const Refusal&) {
         }
     }

@@ -28,11 +28,12 @@ std::optional<TwinSet> make_twins(const Model& model, const std::vector<Prepared
 
 // The fit again, with what the method leaves of the fitted model taken out of the torque, as far as
 // the residual shows it. The fit as it was where there are no twins or they do not help.
-FitResult without_artifact(const FitResult& fitted, Assembler& assembler);
+// rounds: the artifact is that of the model, which moves with it.
+FitResult without_artifact(const FitResult& fitted, Assembler& assembler, int rounds);
 
-// By how much the logarithm of the held-out error falls when `effect` is added to twins of `fitted`,
-// in which nothing is missing and all of its residual is torque noise: the largest of a few.
-// Nothing where there are no twins.
+// By how much the logarithm of the held-out error falls when `effect` is added to twins of
+// `fitted`, in which nothing is missing and all of its residual is torque noise: the largest of a
+// few. Nothing where there are no twins.
 std::optional<double> gain_from_noise(const FitResult& fitted, const Effect& effect,
                                       Assembler& assembler);
 

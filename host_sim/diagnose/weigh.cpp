@@ -12,9 +12,9 @@ namespace servoid {
 
 namespace {
 
-constexpr double kBeyondNoise = 0.6; // a gain that fed-back noise has not been seen to make
-constexpr double kFollows = 0.4;     // of a linear dynamics' gain must follow the reference
-constexpr double kAsked = 0.02;      // probability from which a gain is compared with noise's
+constexpr double kBeyondNoise = 0.6;  // a gain that fed-back noise has not been seen to make
+constexpr double kFollows = 0.4;      // of a linear dynamics' gain must follow the reference
+constexpr double kAsked = 0.02;       // probability from which a gain is compared with noise's
 constexpr double kBeyondDoubt = 0.35; // error after over before: no noise does that
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other

@@ -82,10 +82,13 @@ class Backlash : public Effect {
     }
 
     std::vector<std::string> shape_keys() const override { return {"gap", "load_share"}; }
+    double slope_step() const override {
+        return 0.05;
+    } // the load is caught a sample earlier or not
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
-        for (double share : {0.3, 0.1, 0.03, 0.01, 0.003})
-            for (double load : {0.4, 0.75}) {
+        for (double share : {0.3, 0.15, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001})
+            for (double load : {0.25, 0.5, 0.8}) {
                 EffectTerm term = blank();
                 term.parameters["gap"] = share * search.motion.travel();
                 term.parameters["load_share"] = load;

@@ -139,6 +139,9 @@ class Effect {
     virtual std::vector<std::string> shape_keys() const { return {}; }
     virtual std::vector<EffectTerm> starts(const Search& search) const;
 
+    // Relative step that shows how the columns move with a shape: larger where they move in jumps.
+    virtual double slope_step() const { return 1e-4; }
+
     // The price of a search, as the logarithm of how many independent places it looked at.
     virtual double search_price() const { return 1.5 * double(shape_keys().size()); }
     // Why this motion cannot show the effect, in words ("less than one and a half turns"), or "".

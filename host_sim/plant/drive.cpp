@@ -76,9 +76,9 @@ SimulatedDrive::SimulatedDrive(const Model& model, const DriveOptions& options,
       full_torque_(full_torque_of(model, options)), sensor_error_(axis.sensor_error),
       axis_(axis, sample_time_s_),
       torque_per_count_(controller_of(model).speed_gain * per_count_ / sample_time_s_),
-      random_(options.seed),
-      noise_(0, std::max(options.torque_noise, 1e-300)), noisy_(options.torque_noise > 0),
-      position_noise_(options.position_noise), position_random_(~options.seed) {
+      random_(options.seed), noise_(0, std::max(options.torque_noise, 1e-300)),
+      noisy_(options.torque_noise > 0), position_noise_(options.position_noise),
+      position_random_(~options.seed) {
     const sid_loop_config_t config = loop_config(model, per_count_, full_torque_);
     if (!sid_loop_init(&loop_, &config))
         throw UsageError("the loop's gains are outside what the fixed-point loop can hold "
