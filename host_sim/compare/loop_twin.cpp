@@ -53,6 +53,20 @@ double counted(double value, double quantum) {
     return quantum > 0 ? std::round(value / quantum) * quantum : value;
 }
 
+// Laws of time count from the record's first row, which comes this long after the start.
+AxisDescription started_before(AxisDescription axis, double time_s) {
+    for (auto& law : axis.opposing)
+        law = [law, time_s](AxisPoint p) {
+            p.time_s -= time_s;
+            return law(p);
+        };
+    if (axis.friction_factor)
+        axis.friction_factor = [law = axis.friction_factor, time_s](double t) {
+            return law(std::max(0.0, t - time_s));
+        };
+    return axis;
+}
+
 Model with_encoder(Model model, const Capture& capture) {
     if (!(model.sensor.position_per_count > 0))
         model.sensor.position_per_count = capture.position_quantum;
@@ -69,10 +83,13 @@ std::optional<Capture> loop_twin(const Model& model, const Capture& capture,
     options.seed = noise.seed, options.torque_noise = noise.torque;
     for (double t : torque)
         options.full_torque = std::max(options.full_torque, std::abs(t) / 4);
-    SimulatedDrive drive(with_encoder(model, capture), options);
+    const size_t before = rows_before(capture);
+    AxisDescription axis = axis_of(model);
+    if (before > 0) axis = started_before(axis, double(before) * capture.sample_time_s);
+    SimulatedDrive drive(with_encoder(model, capture), options, axis);
     drive.set_state(capture.position.front(), first_velocity(capture));
     drive.set_first_torque(capture.position_ref.front(), torque.front());
-    for (size_t i = 0, n = rows_before(capture); i < n; ++i)
+    for (size_t i = 0; i < before; ++i)
         drive.step(capture.position_ref[i]);
     Capture out = capture;
     out.path = capture.path + " (simulated)";

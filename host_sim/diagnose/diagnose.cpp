@@ -2,6 +2,7 @@
 
 #include "diagnose/advice.hpp"
 #include "diagnose/evidence.hpp"
+#include "diagnose/structure.hpp"
 #include "diagnose/twin.hpp"
 #include "diagnose/weigh.hpp"
 
@@ -16,10 +17,7 @@ constexpr double kSure = 0.9;           // probability from which one candidate 
 constexpr double kLeastGain = 0.03;     // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15;     // times the floor: the residual is noise
 constexpr double kWorthFinishing = 0.3; // probability
-constexpr double kSlight = 0.002; // of the torque: what takes away less is below what a simulation,
-                                  // a filter and a sample's width agree on
-constexpr double kProbeExplains = 0.6; // of what is left: something depends on that variable
-constexpr double kMaterial = 0.09; // of the power removed: less than that left is no second cause
+constexpr double kAsGood = 0.7; // of what a free function explains: then a named law is as good
 
 double family_probability(const Diagnosis& d) {
     double sum = d.candidates.front().probability;
@@ -30,20 +28,26 @@ double family_probability(const Diagnosis& d) {
 }
 
 // Something is left that a free function of one variable explains and the catalogue does not.
-bool unexplained(const Diagnosis& d, const Candidate& best, Assembler& assembler,
-                 std::vector<Probe>& probes) {
-    const double after = best.validation_error_after, before = d.validation_error_before;
-    if (after < 2 * d.noise_floor) return false;
-    const double removed = before * before - after * after;
-    if (after * after < kMaterial * removed) return false;
-    probes = probe_residual(best.fit, assembler);
-    if (probes.empty() || probes[0].explained < kProbeExplains || probes[0].z < 3) return false;
+bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
+    if (best.validation_error_after < d.noise_floor) return false;
+    const Structure left = structure_of(best.fit, best.validation_error_after, assembler);
+    d.probes = left.probes;
+    if (!left.evident) return false;
     for (const Candidate& second : try_all(best.fit, assembler.motions(), {})) {
         if (!second.sound) continue;
-        const double gain = 1 - std::pow(second.validation_error_after / after, 2);
-        if (gain > 0.8 * probes[0].explained) return false;
+        const double ratio = second.validation_error_after / best.validation_error_after;
+        if (1 - ratio * ratio > kAsGood * left.evident->explained) return false;
     }
     return true;
+}
+
+// No candidate is worth a name: noise, or something that none of them is.
+Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
+    Structure left = structure_of(d.before, d.validation_error_before, assembler);
+    const bool repeats =
+        d.floor_from_repetition && d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
+    d.probes = std::move(left.probes);
+    return left.evident || repeats ? Verdict::unknown : Verdict::adequate;
 }
 
 Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
@@ -53,19 +57,11 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
     double none = 1;
     for (const Candidate& c : d.candidates)
         none -= c.probability;
-    if (near_floor && gain < 0.25) return Verdict::adequate;
     const bool slight = std::sqrt(std::max(0.0, gain)) * d.validation_error_before < kSlight;
-    if (!any || gain < kLeastGain || slight || none > 0.5) {
-        d.probes = probe_residual(d.before, assembler);
-        const bool structured =
-            !d.probes.empty() && d.probes[0].explained > kProbeExplains && d.probes[0].z > 3 &&
-            std::sqrt(d.probes[0].explained) * d.validation_error_before > kSlight;
-        const bool repeats = d.floor_from_repetition &&
-                             d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
-        return structured || repeats ? Verdict::unknown : Verdict::adequate;
-    }
-    if (look_ahead && unexplained(d, d.candidates.front(), assembler, d.probes))
-        return Verdict::unknown;
+    const bool luck = near_floor && gain < 0.25;
+    if (!any || luck || gain < kLeastGain || slight || none > 0.5)
+        return without_candidate(d, assembler);
+    if (look_ahead && unexplained(d, d.candidates.front(), assembler)) return Verdict::unknown;
     return family_probability(d) >= kSure ? Verdict::missing : Verdict::ambiguous;
 }
 

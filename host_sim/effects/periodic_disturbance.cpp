@@ -42,6 +42,11 @@ class PeriodicDisturbance : public WaveEffect {
         return out;
     }
 
+    std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
+        const double cycles = term.at("frequency") * motion.sample_time_s * double(motion.size());
+        return cycles < 2.5 ? "the record holds too few of its cycles: as well a slow drift" : "";
+    }
+
     std::vector<std::string> shape_keys() const override { return {"frequency"}; }
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override {

@@ -187,6 +187,10 @@ std::string describe(const Case& c, const Verdict& v, bool verbose) {
         if (k.noise_gain > 0) out += fmt::format(" (noise would gain {:.3f})", k.noise_gain);
         if (!k.note.empty()) out += " [" + k.note + "]";
     }
+    for (size_t i = 0; i < std::min<size_t>(3, v.diagnosis.probes.size()); ++i) {
+        const servoid::Probe& p = v.diagnosis.probes[i];
+        out += fmt::format("\n    probe {}: {:.3f}, z {:.1f}", p.name, p.explained, p.z);
+    }
     for (const ParameterCheck& p : v.parameters)
         if (!p.good)
             out += fmt::format("\n    wrong: {} is {:.5g}, said {:.5g} ± {:.2g}", p.name, p.truth,
