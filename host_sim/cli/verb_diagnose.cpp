@@ -39,6 +39,13 @@ Json candidate_json(const Candidate& c, const Diagnosis& d, bool ampere) {
     return out;
 }
 
+Json next_json(const std::optional<NextExperiment>& next) {
+    if (!next) return nullptr;
+    return {{"experiment", next->experiment},
+            {"separation", number(next->separation)},
+            {"reason", next->reason}};
+}
+
 Json to_json(const Diagnosis& d, bool ampere) {
     Json out = {{"schema", "servoid.diagnose/1"},
                 {"verdict", verdict_name(d.verdict)},
@@ -54,6 +61,7 @@ Json to_json(const Diagnosis& d, bool ampere) {
     for (const Probe& p : d.probes)
         out["probes"].push_back({{"variable", p.name}, {"explained", number(p.explained)}});
     out["model_parameters"] = fitted_parameters(d.before, ampere);
+    out["next_experiment"] = next_json(d.next);
     out["advice"] = d.advice;
     return out;
 }
@@ -62,7 +70,9 @@ void print(const Output& out, const Diagnosis& d, bool ampere) {
     out.line(fmt::format("{}   torque error {}, noise floor {}, {:.3g} Hz band",
                          out.bold(verdict_name(d.verdict)), percent(d.error_before),
                          percent(d.noise_floor), d.band_Hz));
-    out.line(d.advice + "\n");
+    out.line(d.advice);
+    if (d.next) out.line(d.next->reason);
+    out.line("");
     out.line(fmt::format("{:<22} {:>11} {:>9} {:>9}", "effect", "probability", "after", "unseen"));
     for (const Candidate& c : d.candidates) {
         if (!c.fitted) continue;
@@ -115,6 +125,7 @@ Json to_json(const Refinement& r, bool ampere) {
     out["model_parameters"] = fitted_parameters(r.result, ampere);
     out["noise_floor"] = number(r.noise_floor);
     out["band_Hz"] = r.last.band_Hz;
+    out["next_experiment"] = next_json(r.last.next);
     out["advice"] = r.last.advice;
     return out;
 }

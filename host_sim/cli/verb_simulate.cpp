@@ -42,7 +42,7 @@ void add_simulate(CLI::App& app) {
     verb->add_option("model", o->model, "model file (TOML) with a [controller]")->required();
     verb->add_option("--experiment", o->experiment,
                      "KIND:KEY=VALUE,... or a .toml file; kinds: sine, multisine, trapezoid, "
-                     "constant_speed, speeds")
+                     "constant_speed, speeds, staircase")
         ->required();
     verb->add_option("--seed", o->seed, "of the noise");
     verb->add_option("--out", o->out, "capture file (.csv), - for stdout")->required();

@@ -343,10 +343,6 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     s = evaluate(s.model, assembler);
     refuse_if_alike(s);
     converged = descend(s, assembler, options) && converged;
-    if (!(s.linear.values[0] > 0))
-        throw Refusal("the inertia does not come out positive: torque and motion do not belong "
-                      "together (torque looks reversed, or a wrong column or unit)",
-                      "torque that is positive where it speeds the axis up");
     FitResult out;
     out.model = s.model;
     out.coefficients = s.assembly.coefficients;

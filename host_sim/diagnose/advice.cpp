@@ -37,9 +37,24 @@ std::string separating(const std::string& a, const std::string& b) {
 
 std::string rivals_of(const Diagnosis& d) {
     std::string names;
-    for (const Candidate& c : d.candidates)
+    double none = 1;
+    for (const Candidate& c : d.candidates) {
+        none -= c.probability;
         if (c.probability > 0.05) names += (names.empty() ? "" : ", ") + c.effect;
-    return names;
+    }
+    return names + (none > 0.05 ? ", no further effect" : "");
+}
+
+// The move that was found; where none can do it within what the axis has shown, the one in words.
+std::string record_next(const Diagnosis& d) {
+    const std::string words = separating(d.candidates[0].effect, d.candidates[1].effect);
+    if (!d.next) return "record " + words;
+    if (d.next->separation < kWorthRecording)
+        return fmt::format("no move within the recorded travel, speed and torque tells them apart "
+                           "(at best {:.2g} times the noise); record {}",
+                           d.next->separation, words);
+    return fmt::format("record --experiment \"{}\" (they then differ by {:.2g} times the noise)",
+                       d.next->experiment, d.next->separation);
 }
 
 } // namespace
@@ -52,8 +67,8 @@ std::string advice_for(const Diagnosis& d) {
                            d.candidates[0].effect, 100 * d.validation_error_before,
                            100 * d.candidates[0].validation_error_after);
     case Verdict::ambiguous:
-        return fmt::format("{} explain the residual equally well; record {}", rivals_of(d),
-                           separating(d.candidates[0].effect, d.candidates[1].effect));
+        return fmt::format("{} explain the residual equally well; {}", rivals_of(d),
+                           record_next(d));
     case Verdict::unknown:
         return d.probes.empty()
                    ? "the residual repeats, and nothing in the catalogue explains it"

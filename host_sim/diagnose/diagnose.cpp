@@ -110,6 +110,7 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
         weigh(d, assembler);
     }
     d.verdict = judge(d, assembler, options.look_ahead);
+    if (options.look_ahead) d.next = next_of(d, motions); // not in the steps of refine
     d.advice = advice_for(d);
     return d;
 }

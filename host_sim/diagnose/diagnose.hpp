@@ -4,6 +4,7 @@
 
 #include "compare/compare.hpp"
 #include "diagnose/candidates.hpp"
+#include "diagnose/next_experiment.hpp"
 #include "diagnose/probe.hpp"
 
 #include <string>
@@ -29,8 +30,9 @@ struct Diagnosis {
     double error_before = 0, validation_error_before = 0;
     double noise_floor = 0;
     bool floor_from_repetition = false;
-    std::vector<Candidate> candidates; // best first, every effect that was tried
-    std::vector<Probe> probes;         // what the residual depends on, catalogue or not
+    std::vector<Candidate> candidates;  // best first, every effect that was tried
+    std::vector<Probe> probes;          // what the residual depends on, catalogue or not
+    std::optional<NextExperiment> next; // what tells the rivals of an ambiguous verdict apart
     std::string advice;
     double band_Hz = 0;
 };

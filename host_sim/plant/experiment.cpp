@@ -120,6 +120,38 @@ Experiment speeds(const Keys& k) {
     return e;
 }
 
+// There and back at one speed after the other, then again from the first.
+Experiment staircase(const Keys& k) {
+    struct Step {
+        double begins;
+        Ramp ramp;
+    };
+    std::vector<Step> steps;
+    double length = 0;
+    const double stroke = k.at("stroke"), from = k.at("from"), to = k.at("to");
+    const int count = int(k.at("count"));
+    if (!(from > 0) || !(to > 0) || k.at("count") > 1000)
+        throw UsageError("experiment: a staircase takes up to 1000 speeds above zero");
+    for (int i = 0; i < count; ++i) {
+        const double v = count > 1 ? from + (to - from) * i / (count - 1) : from;
+        steps.push_back({length, {stroke, v, k.at("acceleration")}});
+        length += 2 * steps.back().ramp.duration();
+    }
+    Experiment e;
+    e.period_s = length;
+    e.duration_s = k.at("cycles") * length;
+    e.position_ref = [=](double t) {
+        const double in = std::fmod(t, length);
+        size_t i = steps.size() - 1;
+        while (i > 0 && in < steps[i].begins)
+            --i;
+        const Ramp& ramp = steps[i].ramp;
+        const double there = in - steps[i].begins, back = there - ramp.duration();
+        return back < 0 ? ramp.at(there) : stroke - ramp.at(back);
+    };
+    return e;
+}
+
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all = {
         {"sine", {{"frequency_Hz", 100}, {"amplitude", 1}, {"periods", 10}}, sine},
@@ -140,12 +172,20 @@ const std::vector<Kind>& kinds() {
          trapezoid},
         {"constant_speed", {{"velocity", 20}, {"duration", 1}}, constant_speed},
         {"speeds", {{"from", 5}, {"to", 100}, {"count", 6}, {"duration", 0.5}}, speeds},
+        {"staircase",
+         {{"stroke", 6.2831853071795862},
+          {"from", 5},
+          {"to", 50},
+          {"count", 4},
+          {"acceleration", 2000},
+          {"cycles", 3}},
+         staircase},
     };
     return all;
 }
 
 const Keys& common_keys() {
-    static const Keys keys = {{"torque_noise", 0}, {"rest", 0}};
+    static const Keys keys = {{"torque_noise", 0}, {"rest", 0}, {"start", 0}};
     return keys;
 }
 
@@ -157,8 +197,8 @@ std::string known(const Keys& keys) {
 }
 
 void check_range(const std::string& key, double value) {
-    static const std::vector<std::string> any = {
-        "velocity", "seed", "torque_noise", "rest", "dwell", "from", "to"};
+    static const std::vector<std::string> any = {"velocity", "seed",  "torque_noise", "rest",
+                                                 "start",    "dwell", "from",         "to"};
     const bool free = std::find(any.begin(), any.end(), key) != any.end();
     if (!std::isfinite(value) || (!free && value <= 0) || (key == "rest" && value < 0) ||
         (key == "dwell" && value < 0) || (key == "torque_noise" && value < 0))
@@ -180,6 +220,10 @@ Experiment make(const std::string& name, const Keys& given) {
         Experiment e = kind.make(keys);
         if (!(e.duration_s <= 3600)) throw UsageError("experiment: longer than an hour");
         e.torque_noise = keys.at("torque_noise");
+        if (const double start = keys.at("start"); start != 0) {
+            e.start = start;
+            e.position_ref = [inner = e.position_ref, start](double t) { return start + inner(t); };
+        }
         if (const double rest = keys.at("rest"); rest > 0) {
             e.duration_s += rest;
             e.position_ref = [inner = e.position_ref, rest](double t) {

@@ -7,8 +7,11 @@
 //   trapezoid       stroke velocity acceleration dwell cycles      (there and back)
 //   constant_speed  velocity duration                              (with a soft start)
 //   speeds          from to count duration   (count speeds, both ways, each a segment)
+//   staircase       stroke from to count acceleration cycles   (there and back at each of count
+//                   speeds: many speeds in one move whose travel is known)
 // Keys of every kind: torque_noise (standard deviation per sample of a torque that disturbs the
-// axis); rest (seconds before the move).
+// axis); rest (seconds before the move); start (position where the axis stands before the move,
+// in the model's coordinates: springs, arms, stops and cogging have a place).
 #pragma once
 
 #include <functional>
@@ -22,8 +25,9 @@ struct Experiment {
     std::string text; // how it was written, for the capture's metadata
     double duration_s = 0;
     double torque_noise = 0; // N·m or N, per sample
+    double start = 0;        // rad or m: where the axis stands before the move
     std::optional<double> period_s;
-    std::function<double(double)> position_ref; // rad or m against time from the start
+    std::function<double(double)> position_ref; // rad or m against time; its first value is `start`
     std::function<int(double)> segment;         // empty: no segments
 };
 

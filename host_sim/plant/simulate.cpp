@@ -20,11 +20,12 @@ Capture simulate(const Model& model, const Experiment& experiment, unsigned long
     out.metadata["sample_time_s"] = fmt::format("{:.17g}", out.sample_time_s);
     if (experiment.period_s)
         out.metadata["period_s"] = fmt::format("{:.17g}", *experiment.period_s);
-    const double start = experiment.position_ref(0);
+    if (experiment.start != 0) drive.set_state(experiment.start, 0);
+    const double shift = experiment.start - experiment.position_ref(0);
     const long rows = std::lround(experiment.duration_s / out.sample_time_s);
     for (long i = 0; i < rows; ++i) {
         const double t = double(i) * out.sample_time_s;
-        const DriveSample s = drive.step(experiment.position_ref(t) - start);
+        const DriveSample s = drive.step(experiment.position_ref(t) + shift);
         out.time_s.push_back(t);
         out.position_ref.push_back(s.reference);
         out.torque_ref.push_back(s.torque);

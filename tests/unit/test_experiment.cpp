@@ -2,6 +2,7 @@
 // ones.
 #include "common/error.hpp"
 #include "plant/experiment.hpp"
+#include "plant/simulate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,8 @@ TEST(Experiment, SineFromRest) {
 }
 
 TEST(Experiment, DefaultsWithoutKeys) {
-    for (const char* kind : {"sine", "multisine", "trapezoid", "constant_speed", "speeds"}) {
+    for (const char* kind :
+         {"sine", "multisine", "trapezoid", "constant_speed", "speeds", "staircase"}) {
         const Experiment e = parse_experiment(kind);
         EXPECT_GT(e.duration_s, 0) << kind;
         EXPECT_NEAR(e.position_ref(0), 0, 1e-12) << kind;
@@ -102,6 +104,38 @@ TEST(Experiment, RestComesFirst) {
     EXPECT_EQ(e.torque_noise, 0.01);
 }
 
+TEST(Experiment, StaircaseGoesThereAndBackAtEachSpeed) {
+    const Experiment e =
+        parse_experiment("staircase:stroke=10,from=20,to=40,count=3,acceleration=400,cycles=2");
+    double length = 0;
+    for (double v : {20.0, 30.0, 40.0}) {
+        const double leg = 10 / v + v / 400, middle = length + leg / 2, h = 1e-3;
+        EXPECT_NEAR(e.position_ref(length), 0, 1e-9);
+        EXPECT_NEAR(e.position_ref(length + leg), 10, 1e-9);
+        EXPECT_NEAR((e.position_ref(middle + h) - e.position_ref(middle - h)) / (2 * h), v, 1e-6);
+        EXPECT_NEAR(e.position_ref(length + 2 * leg - leg / 2), 5, 1e-9);
+        length += 2 * leg;
+    }
+    EXPECT_DOUBLE_EQ(*e.period_s, length);
+    EXPECT_DOUBLE_EQ(e.duration_s, 2 * length);
+    EXPECT_NEAR(e.position_ref(0.3), e.position_ref(0.3 + length), 1e-9);
+}
+
+TEST(Experiment, StartIsWhereTheAxisStands) {
+    const Experiment e = parse_experiment("trapezoid:stroke=2,cycles=2,start=-1.5,rest=0.1");
+    EXPECT_EQ(e.start, -1.5);
+    EXPECT_DOUBLE_EQ(e.position_ref(0.05), -1.5);
+    const Model model = read_model(std::string(SERVOID_SOURCE_DIR) + "/examples/system1.toml");
+    const Capture there = simulate(model, e, 1);
+    const Capture here =
+        simulate(model, parse_experiment("trapezoid:stroke=2,cycles=2,rest=0.1"), 1);
+    const double count = there.position_quantum;
+    EXPECT_NEAR(there.position.front(), -1.5, count);
+    EXPECT_EQ(there.position_ref.front(), -1.5);
+    for (size_t i = 0; i < here.rows(); i += 50)
+        ASSERT_NEAR(there.position[i] + 1.5, here.position[i], 20 * count) << i;
+}
+
 std::string usage_error(const std::string& text) {
     try {
         parse_experiment(text);
@@ -119,8 +153,11 @@ TEST(Experiment, WrongTextIsNamed) {
     EXPECT_NE(usage_error("sine:frequency_Hz=10Hz").find("key=number"), std::string::npos);
     for (const char* text :
          {"sine:frequency_Hz=0", "sine:frequency_Hz=-1", "sine:amplitude=nan", "sine:periods=inf",
-          "sine:torque_noise=-1", "sine:rest=-1", "trapezoid:dwell=-1", "speeds:count=0"})
+          "sine:torque_noise=-1", "sine:rest=-1", "trapezoid:dwell=-1", "speeds:count=0",
+          "staircase:count=0", "sine:start=inf"})
         EXPECT_NE(usage_error(text).find("out of range"), std::string::npos) << text;
+    for (const char* text : {"staircase:from=-5", "staircase:to=0", "staircase:count=1e9"})
+        EXPECT_NE(usage_error(text).find("1000 speeds above zero"), std::string::npos) << text;
     EXPECT_NE(usage_error("constant_speed:duration=4000").find("hour"), std::string::npos);
 }
 
