@@ -332,6 +332,41 @@ double linear_error(const Model& model, Assembler& assembler) {
     return evaluate(model, assembler).error;
 }
 
+namespace {
+
+// The torque counted the other way round explains the motion: not a missing effect.
+void refuse_if_reversed(const State& s, double error_held) {
+    std::vector<bool> fixed;
+    std::vector<double> lower;
+    for (const Coefficient& c : s.assembly.coefficients)
+        fixed.push_back(c.fixed), lower.push_back(c.lower);
+    const Vector reversed = -s.assembly.torque;
+    const LinearFit other =
+        solve({s.assembly.columns, reversed, coefficient_values(s.model), fixed, lower});
+    const double error = (reversed - s.assembly.columns * other.values).norm() /
+                         std::max(1e-300, reversed.norm());
+    if (!other.solved || !(other.values[0] > 0) || error > 0.7 * error_held) return;
+    throw Refusal("the inertia does not come out positive: torque looks reversed",
+                  "torque that is positive where it speeds the axis up");
+}
+
+// Something strong that is missing may turn the inertia's sign: it then stays as it is believed.
+FitResult with_inertia_held(const Model& model, const State& s, Assembler& assembler,
+                            const FitOptions& options) {
+    Model held = model;
+    held.inertia_fixed = true;
+    if (model.inertia_fixed || !(model.inertia > 0))
+        throw Refusal("the inertia does not come out positive: torque and motion do not belong "
+                      "together (a wrong column or unit)",
+                      "torque that is positive where it speeds the axis up");
+    FitResult out = fit(held, assembler, options);
+    refuse_if_reversed(s, out.torque_error);
+    out.model.inertia_fixed = false;
+    return out;
+}
+
+} // namespace
+
 FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options) {
     refuse_one_way(model, assembler.motions());
     assembler.set_context(model);
@@ -343,6 +378,7 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     s = evaluate(s.model, assembler);
     refuse_if_alike(s);
     converged = descend(s, assembler, options) && converged;
+    if (!(s.linear.values[0] > 0)) return with_inertia_held(model, s, assembler, options);
     FitResult out;
     out.model = s.model;
     out.coefficients = s.assembly.coefficients;

@@ -52,8 +52,14 @@ class PeriodicDisturbance : public WaveEffect {
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double length = search.time_s[search.time_s.size() - 1] - search.time_s[0];
-        const double step = search.time_s[1] - search.time_s[0];
-        for (double f : strongest_lines_Hz(search.residual, step, 3)) {
+        const Eigen::Index n = search.time_s.size();
+        const double step = (search.time_s.tail(n - 1) - search.time_s.head(n - 1)).minCoeff();
+        // Points where the axis rests are missing: nothing in their place keeps the phase.
+        Eigen::VectorXd residual = Eigen::VectorXd::Zero(Eigen::Index(length / step + 1.5));
+        for (Eigen::Index i = 0; i < n; ++i)
+            residual[Eigen::Index((search.time_s[i] - search.time_s[0]) / step + 0.5)] =
+                search.residual[i];
+        for (double f : strongest_lines_Hz(residual, step, 3)) {
             if (f * length < kFewestCycles) continue;
             EffectTerm term = blank();
             term.parameters["frequency"] = f;
