@@ -112,7 +112,8 @@ std::vector<Candidate> try_all(const FitResult& before, const std::vector<Prepar
                                const DiagnoseOptions& options) {
     std::vector<const Effect*> effects;
     for (const Effect* effect : catalogue())
-        if (cannot_add(*effect, before.model).empty()) effects.push_back(effect);
+        if (!effect->info().written && cannot_add(*effect, before.model).empty())
+            effects.push_back(effect);
     std::vector<Candidate> out(effects.size());
     std::atomic<size_t> next = 0;
     const auto work = [&](bool reports) {

@@ -56,7 +56,7 @@ class Backlash : public Effect {
         axis.backlash = Gap{term.at("gap"), term.at("load_share")};
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -81,7 +81,9 @@ class Backlash : public Effect {
         return term.at("gap") > 0.9 * motion.travel() ? "the gap is as wide as the travel" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"gap", "load_share"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"gap", "load_share"};
+    }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.3, 0.1, 0.03, 0.01, 0.003})
