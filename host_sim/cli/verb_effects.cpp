@@ -1,6 +1,7 @@
 // servoid effects: the catalogue.
 #include "cli/app.hpp"
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "effects/catalogue.hpp"
 
 #include <fmt/format.h>
@@ -28,15 +29,17 @@ Json to_json(const EffectInfo& info) {
                               {"lower", bound(p.lower)},
                               {"upper", bound(p.upper)},
                               {"meaning", p.meaning}});
-    return {{"name", info.name},
-            {"law", info.law},
-            {"signature", info.signature},
-            {"reference", info.reference},
-            {"parameters", parameters},
-            {"replaces", info.replaces},
-            {"needs", info.needs},
-            {"rotary_only", info.rotary_only},
-            {"repeatable", info.repeatable}};
+    Json out = {{"name", info.name},
+                {"law", info.law},
+                {"signature", info.signature},
+                {"reference", info.reference},
+                {"parameters", parameters},
+                {"replaces", info.replaces},
+                {"needs", info.needs},
+                {"rotary_only", info.rotary_only},
+                {"repeatable", info.repeatable}};
+    if (!info.example.empty()) out["example"] = info.example;
+    return out;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -54,6 +57,10 @@ void print_one(const Output& out, const EffectInfo& info) {
         out.line(fmt::format("  {:<26} {:<12} {:<10} {}", p.key,
                              unit_of(p.quantity, Motion::rotary),
                              unit_of(p.quantity, Motion::linear), p.meaning));
+    if (info.example.empty()) return;
+    out.line("  example");
+    for (const std::string& line : split(info.example, '\n'))
+        out.line(line.empty() ? "" : "    " + line);
 }
 
 void run_effects(const Options& o) {

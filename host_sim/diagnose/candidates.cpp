@@ -81,7 +81,7 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before, Assem
         c.parameters.push_back(p);
         c.parameters.back().name = p.name.substr(dot + 1);
     }
-    const size_t own = effect.info().parameters.size(); // the last of several of the same name
+    const size_t own = effect.parameters(c.fit.model.effects.back()).size(); // the last of several of the same name
     c.parameters.erase(c.parameters.begin(), c.parameters.end() - long(own));
     c.note = fault_of(c, effect, before, assembler);
     c.sound = c.note.empty();
@@ -127,7 +127,8 @@ std::vector<Candidate> try_all(const FitResult& before, const std::vector<Prepar
                                const Progress& progress) {
     std::vector<const Effect*> effects;
     for (const Effect* effect : catalogue())
-        if (cannot_add(*effect, before.model).empty()) effects.push_back(effect);
+        if (!effect->info().written && cannot_add(*effect, before.model).empty())
+            effects.push_back(effect);
     std::vector<Candidate> out(effects.size());
     share_out(effects.size(), motions, [&](size_t i, Assembler& assembler, bool reports) {
         if (reports && progress)

@@ -56,7 +56,7 @@ class Backlash : public Effect {
         axis.backlash = Gap{term.at("gap"), term.at("load_share")};
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -81,10 +81,11 @@ class Backlash : public Effect {
         return term.at("gap") > 0.9 * motion.travel() ? "the gap is as wide as the travel" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"gap", "load_share"}; }
-    double slope_step() const override {
-        return 0.05;
-    } // the load is caught a sample earlier or not
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"gap", "load_share"};
+    }
+    // The load is caught a sample earlier or not.
+    double slope_step() const override { return 0.05; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.3, 0.15, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001})

@@ -26,7 +26,7 @@ class ConstantTorque : public Effect {
         axis.constant_torque += term.at("torque");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::VectorXd::Ones(motion.size());
     }

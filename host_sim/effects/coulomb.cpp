@@ -27,7 +27,7 @@ class Coulomb : public Effect {
         axis.coulomb_reverse += term.at("torque");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return direction(motion);
     }

@@ -31,7 +31,7 @@ class CoulombAsymmetric : public Effect {
         axis.coulomb_reverse += term.at("torque_reverse");
     }
 
-    int linear_count() const override { return 2; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         const Eigen::VectorXd sign = direction(motion);
         Eigen::MatrixXd columns(motion.size(), 2);

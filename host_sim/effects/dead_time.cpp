@@ -28,7 +28,7 @@ class DeadTime : public Effect {
         axis.drive.dead_time_s += term.at("delay");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -38,7 +38,7 @@ class DeadTime : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"delay"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"delay"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.2, 0.08, 0.02}) {

@@ -87,7 +87,7 @@ class ElasticLoadEffect : public Effect {
         axis.elastic = load_of(term);
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -110,7 +110,7 @@ class ElasticLoadEffect : public Effect {
                    : "";
     }
 
-    std::vector<std::string> shape_keys() const override {
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
         return {"antiresonance_frequency", "resonance_frequency", "antiresonance_damping",
                 "resonance_damping"};
     }

@@ -30,15 +30,17 @@ class FrictionDrift : public Effect {
         axis.friction_factor = [=](double t) { return 1 + d * -std::expm1(-t / tau); };
     }
 
-    bool depends_on_model() const override { return true; }
-    int linear_count() const override { return 1; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double tau = term.at("time_constant");
         if (motion.friction.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
         return motion.friction.array() * (1 - (-motion.time_s.array() / tau).exp());
     }
 
-    std::vector<std::string> shape_keys() const override { return {"time_constant"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"time_constant"};
+    }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double length = search.time_s[search.time_s.size() - 1];

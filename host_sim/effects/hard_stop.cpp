@@ -34,7 +34,7 @@ class HardStop : public Effect {
         axis.opposing.push_back([=](const AxisPoint& p) { return k * beyond(p.position, stop); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double stop = term.at("position");
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
@@ -54,7 +54,7 @@ class HardStop : public Effect {
         return stop > 0.995 * reach || stop < 0.3 * reach ? "no stop within the travel" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"position"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"position"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         if (search.position.size() == 0) return out;

@@ -29,8 +29,8 @@ class LoadFriction : public Effect {
         axis.load_friction += term.at("coefficient");
     }
 
-    bool uses_torque() const override { return true; }
-    int linear_count() const override { return 1; }
+    bool uses_torque(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return direction(motion).cwiseProduct(motion.torque.cwiseAbs());
     }

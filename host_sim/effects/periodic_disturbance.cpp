@@ -47,7 +47,7 @@ class PeriodicDisturbance : public WaveEffect {
         return cycles < 2.5 ? "the record holds too few of its cycles: as well a slow drift" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"frequency"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"frequency"}; }
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;

@@ -31,7 +31,7 @@ class Presliding : public Effect {
         axis.bristle = Bristle{term.at("stiffness"), term.at("torque")};
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
         const double length = std::max(1e-300, bending_length(term));
@@ -63,7 +63,7 @@ class Presliding : public Effect {
         return length < 0.5 * motion.position_quantum ? "stiffer than the encoder can show" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"stiffness"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"stiffness"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.2, 0.07, 0.025, 0.009, 0.003}) {

@@ -30,7 +30,7 @@ class QuadraticDrag : public Effect {
             [c](const AxisPoint& p) { return c * p.velocity * std::abs(p.velocity); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return motion.velocity.array() * motion.velocity.array().abs();
     }

@@ -29,8 +29,8 @@ class Spring : public Effect {
         axis.opposing.push_back([=](const AxisPoint& p) { return k * (p.position - rest); });
     }
 
-    bool depends_on_model() const override { return true; }
-    int linear_count() const override { return 2; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
         Eigen::MatrixXd out(motion.size(), 2);

@@ -37,7 +37,7 @@ class Stribeck : public Effect {
             [=](double speed) { return extra * std::exp(-speed * speed / (vs * vs)); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double vs = term.at("velocity");
         const Eigen::ArrayXd u = motion.velocity.array() / vs;
@@ -53,7 +53,7 @@ class Stribeck : public Effect {
                                                                   : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"velocity"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"velocity"}; }
     // Above half the top speed it would only bend the viscous line.
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;

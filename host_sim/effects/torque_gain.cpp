@@ -27,7 +27,7 @@ class TorqueGain : public Effect {
         axis.drive.gain *= term.at("gain");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -37,7 +37,7 @@ class TorqueGain : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"gain"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"gain"}; }
     std::vector<EffectTerm> starts(const Search&) const override {
         EffectTerm term = blank();
         term.parameters["gain"] = 1;

@@ -28,7 +28,7 @@ class TorqueLag : public Effect {
         axis.drive.lag_s = term.at("time_constant");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -54,7 +54,9 @@ class TorqueLag : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"time_constant"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"time_constant"};
+    }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.25, 0.08, 0.02}) {

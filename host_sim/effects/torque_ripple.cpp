@@ -36,7 +36,7 @@ class TorqueRipple : public OrderEffect {
             [=](double position) { return a * std::sin(k * position + phase); });
     }
 
-    bool uses_torque() const override { return true; }
+    bool uses_torque(const EffectTerm&) const override { return true; }
     // T + a T sin(nθ+φ) = needed, so T = needed − a T sin(nθ+φ).
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);

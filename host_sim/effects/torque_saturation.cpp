@@ -28,7 +28,7 @@ class TorqueSaturation : public Effect {
         axis.drive.limit = axis.drive.limit > 0 ? std::min(axis.drive.limit, limit) : limit;
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -44,7 +44,7 @@ class TorqueSaturation : public Effect {
                    : "";
     }
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"limit"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"limit"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double top = search.torque.cwiseAbs().maxCoeff();

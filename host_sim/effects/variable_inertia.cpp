@@ -34,7 +34,7 @@ class VariableInertia : public OrderEffect {
                                         wave_number(term.at("order"), axis.kind), term.at("phase")};
     }
 
-    bool depends_on_model() const override { return true; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
     // J a cos(x+φ) − ½ J κ sin(x+φ) v², x = κθ, split into cos φ and sin φ.
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);

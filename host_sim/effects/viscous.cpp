@@ -28,7 +28,7 @@ class Viscous : public Effect {
         axis.viscous_reverse += term.at("coefficient");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return motion.velocity;
     }

@@ -29,7 +29,7 @@ class ViscousAsymmetric : public Effect {
         axis.viscous_reverse += term.at("coefficient_reverse");
     }
 
-    int linear_count() const override { return 2; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         Eigen::MatrixXd columns(motion.size(), 2);
         columns.col(0) = motion.velocity.cwiseMax(0.0);
