@@ -1,5 +1,7 @@
 #include "effects/effect.hpp"
 
+#include "effects/hiding.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -20,6 +22,15 @@ void Effect::set_linear(EffectTerm& term, const Eigen::VectorXd& coefficients) c
 double Effect::linear_lower(int index) const { return info().parameters[size_t(index)].lower; }
 
 std::vector<EffectTerm> Effect::starts(const Search&) const { return {blank()}; }
+
+Hiding Effect::hide(Draw&) const { return {}; }
+
+EffectTerm Effect::with(std::map<std::string, double> parameters) const {
+    EffectTerm out;
+    out.name = info().name;
+    out.parameters = std::move(parameters);
+    return out;
+}
 
 EffectTerm Effect::blank() const {
     EffectTerm term;
