@@ -4,6 +4,7 @@
 #include "effects/catalogue.hpp"
 #include "mystery/mystery.hpp"
 #include "mystery/secret.hpp"
+#include "mystery/strength.hpp"
 #include "plant/simulate.hpp"
 
 #include <Eigen/Dense>
@@ -117,6 +118,25 @@ TEST(Mystery, TheAxisSurvivesIt) {
         EXPECT_NEAR(travel(run.capture) / travel(before), 1, 0.4);
         EXPECT_TRUE(!run.saturated || m.hidden.name == "torque_saturation");
     }
+}
+
+TEST(Mystery, WhatStopsOrUpsetsTheAxisIsNoStrength) {
+    const Model model = example("system1.toml");
+    const Experiment e = parse_experiment(move);
+    const Stage stage(model, e, 1);
+    const auto term = [](const std::string& name, std::map<std::string, double> parameters) {
+        EffectTerm out;
+        out.name = name, out.parameters = std::move(parameters);
+        return out;
+    };
+    EXPECT_TRUE(stage.strength(term("spring", {{"stiffness", 1e-3}, {"rest_position", 6}})));
+    for (const EffectTerm& hidden :
+         {term("spring", {{"stiffness", 10}, {"rest_position", 6}}),       // it stays where it is
+          term("dead_time", {{"delay", 0.02}}),                            // the loop swings up
+          term("torque_saturation", {{"limit", 1e-3}}),                    // it hardly moves
+          term("quadratic_drag", {{"coefficient", 1}}),                    // it creeps
+          term("encoder_eccentricity", {{"amplitude", 5}, {"phase", 0}})}) // not one position fits
+        EXPECT_FALSE(stage.strength(hidden)) << hidden.name;
 }
 
 TEST(Mystery, WorksOnALinearAxis) {
