@@ -13,7 +13,6 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 constexpr double kFewestRows = 0.01; // share of the rows below the Stribeck speed
-constexpr double kSlowest = 0.005;   // of the top speed: below it lies only the turn itself
 
 class Stribeck : public Effect {
     const EffectInfo& info() const override {
