@@ -1,5 +1,6 @@
 // Backlash: a gap between motor and load.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <algorithm>
@@ -48,7 +49,12 @@ class Backlash : public Effect {
                            {"load_share", Quantity::ratio, 0, 0.999,
                             "share of the inertia behind the gap"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::time,
+                        .move = "sine:frequency_Hz=4,amplitude=1,periods=2",
+                        .parameters = {{"gap", 0.05}, {"load_share", 0.5}},
+                        .beside = {},
+                        .band_Hz = 300}};
         return info;
     }
 
@@ -99,6 +105,16 @@ class Backlash : public Effect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.position.size() ? "" : "the position was not recorded";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double share = draw.uniform(0.3, 0.85), travel = draw.scenery().travel();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"gap", s}, {"load_share", share}});
+                    },
+                .start = 0.02 * travel,
+                .most = 0.3 * travel};
     }
 };
 

@@ -9,6 +9,7 @@
 namespace servoid {
 namespace {
 
+// Never hidden: Coulomb friction and a constant torque explain it on any motion.
 class CoulombAsymmetric : public Effect {
     const EffectInfo& info() const override {
         constexpr double inf = std::numeric_limits<double>::infinity();
@@ -22,7 +23,11 @@ class CoulombAsymmetric : public Effect {
                            {"torque_reverse", Quantity::torque, 0, inf,
                             "sliding friction while v < 0"}},
             .replaces = {"coulomb"},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"torque_forward", 8e-3}, {"torque_reverse", 4e-3}},
+                        .beside = {"viscous"}}};
         return info;
     }
 

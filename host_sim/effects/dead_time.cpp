@@ -1,5 +1,6 @@
 // Dead time: the torque comes later than it was asked for.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,11 @@ class DeadTime : public Effect {
             .reference = "Andoh 2008, section III-F",
             .parameters = {{"delay", Quantity::time, 0, 1, "from asked to delivered"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::quadrature,
+                        .move = "multisine:from_Hz=3,to_Hz=90,step_Hz=3,amplitude=0.3,periods=8",
+                        .parameters = {{"delay", 1e-3}},
+                        .beside = {}}};
         return info;
     }
 
@@ -47,6 +52,17 @@ class DeadTime : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double band = draw.scenery().band_Hz;
+        return {.at =
+                    [this](double s) {
+                        return with({{"delay", s}});
+                    },
+                .start = 0.05 / band,
+                .least = 20e-6,
+                .most = 0.4 / band};
     }
 };
 

@@ -1,5 +1,7 @@
 #include "effects/effect.hpp"
 
+#include "effects/hiding.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -26,6 +28,15 @@ bool Effect::linear_fixed(const EffectTerm& term, int index) const {
 }
 
 std::vector<EffectTerm> Effect::starts(const Search&) const { return {blank()}; }
+
+Hiding Effect::hide(Draw&) const { return {}; }
+
+EffectTerm Effect::with(std::map<std::string, double> parameters) const {
+    EffectTerm out;
+    out.name = info().name;
+    out.parameters = std::move(parameters);
+    return out;
+}
 
 EffectTerm Effect::blank() const {
     EffectTerm term;

@@ -10,12 +10,15 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace servoid {
 
 struct AxisDescription; // host_sim/plant/axis.hpp: what the simulator integrates
+class Draw;             // effects/hiding.hpp: parameters drawn at random that suit a motion
+struct Hiding;
 
 // The physical quantity of a parameter; its unit follows from the axis being rotary or linear.
 enum class Quantity {
@@ -44,6 +47,28 @@ struct ParameterInfo {
     std::string meaning;
 };
 
+// What a residual is drawn against.
+enum class Against {
+    velocity,
+    position,
+    time,
+    torque,
+    torque_rate,
+    in_phase,  // frequency: the part of the residual in phase with the torque
+    quadrature // frequency: the part a quarter of a turn behind it
+};
+
+// The residual that shows an effect best: of a small motor (report/signature.cpp) that has the
+// effect and the friction beside it, less a model that knows only that friction.
+struct Picture {
+    Against against = Against::velocity;
+    std::string move; // experiment, see plant/experiment.hpp
+    std::map<std::string, double> parameters;
+    std::vector<std::string> beside = {"viscous", "coulomb"};
+    double band_Hz = 150;
+    bool refitted = false; // the model's numbers first: for an effect that hides in them
+};
+
 struct EffectInfo {
     std::string name;
     std::string law;       // as text, in T, θ, v, a, t
@@ -58,6 +83,7 @@ struct EffectInfo {
     // beliefs.
     bool written = false;
     std::string example = {}; // of a model file, where the law is written there
+    Picture picture = {};
 };
 
 // A measured motion at the sample rate, before the band limit: the arguments of every law.
@@ -165,8 +191,13 @@ class Effect {
     // viscous line"), or "".
     virtual std::string implausible(const EffectTerm&, const MotionView&) const { return ""; }
 
+    // How to hide this effect in a drive whose motion without it is known; by default it is never
+    // hidden (an alias of others, or nothing that one experiment could show).
+    virtual Hiding hide(Draw&) const;
+
   protected:
     EffectTerm blank() const; // name, every parameter at 0 or its nearest bound
+    EffectTerm with(std::map<std::string, double> parameters) const;
 };
 
 } // namespace servoid

@@ -1,5 +1,6 @@
 // Friction drift: grease that warms up, and friction with it.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -21,7 +22,10 @@ class FrictionDrift : public Effect {
                             "change of all friction in the long run"},
                            {"time_constant", Quantity::time, 1e-6, kInf, "of the change"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::time,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=6",
+                        .parameters = {{"fraction", 0.8}, {"time_constant", 0.5}}}};
         return info;
     }
 
@@ -55,6 +59,17 @@ class FrictionDrift : public Effect {
         return motion.friction.size() && motion.friction.squaredNorm() > 0
                    ? ""
                    : "the model has no friction that could drift";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double tau = draw.scenery().duration_s * draw.log_uniform(0.1, 0.7);
+        const double sign = draw.sign();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"fraction", sign * s}, {"time_constant", tau}});
+                    },
+                .start = 0.3,
+                .most = sign > 0 ? 1.5 : 0.8};
     }
 };
 

@@ -1,5 +1,6 @@
 // Hard stop: a stiff end of the travel on either side.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -25,7 +26,10 @@ class HardStop : public Effect {
                             "where the stop begins, both sides of zero"},
                            {"stiffness", Quantity::stiffness, 0, kInf, "torque per way beyond it"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "sine:frequency_Hz=3,amplitude=3,periods=4",
+                        .parameters = {{"position", 2.0}, {"stiffness", 0.02}}}};
         return info;
     }
 
@@ -65,6 +69,16 @@ class HardStop : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double reach = draw.scenery().reach();
+        const double stop = reach * draw.uniform(0.6, 0.95);
+        return {.at =
+                    [=, this](double k) {
+                        return with({{"position", stop}, {"stiffness", k}});
+                    },
+                .start = draw.torque() / (0.1 * reach)};
     }
 };
 

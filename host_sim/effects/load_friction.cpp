@@ -1,6 +1,7 @@
 // Load-dependent friction: what a screw or worm loses grows with the torque through it.
 #include "effects/direction.hpp"
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -21,7 +22,11 @@ class LoadFriction : public Effect {
             .parameters = {{"coefficient", Quantity::ratio, 0, 0.6,
                             "friction per delivered torque"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque,
+                        .move = "sine:frequency_Hz=4,amplitude=3,periods=4",
+                        .parameters = {{"coefficient", 0.3}},
+                        .beside = {}}};
         return info;
     }
 
@@ -36,6 +41,15 @@ class LoadFriction : public Effect {
     }
     std::string implausible(const EffectTerm& term, const MotionView&) const override {
         return term.at("coefficient") > 0.6 ? "more than the transmission could lose" : "";
+    }
+
+    Hiding hide(Draw&) const override {
+        return {.at =
+                    [this](double s) {
+                        return with({{"coefficient", s}});
+                    },
+                .start = 0.1,
+                .most = 0.5};
     }
 };
 

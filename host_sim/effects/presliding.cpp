@@ -1,5 +1,6 @@
 // Pre-sliding: the contact bends like bristles before it slides (Dahl).
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -23,7 +24,11 @@ class Presliding : public Effect {
                             "torque per deflection at a reversal"},
                            {"torque", Quantity::torque, 0, kInf, "friction once it slides"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"stiffness", 1e-2}, {"torque", 6e-3}},
+                        .beside = {"viscous"}}};
         return info;
     }
 
@@ -78,6 +83,15 @@ class Presliding : public Effect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.position.size() ? "" : "the position was not recorded";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double length = draw.scenery().travel() * draw.log_uniform(0.01, 0.2);
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"stiffness", s / length}, {"torque", s}});
+                    },
+                .start = draw.torque()};
     }
 
   private:

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+// Never hidden: inertia and friction take it up.
 class TorqueGain : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
@@ -19,7 +20,11 @@ class TorqueGain : public Effect {
             .reference = "Andoh 2008, section III-F",
             .parameters = {{"gain", Quantity::ratio, 1e-3, 1e3, "delivered over asked"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"gain", 0.8}},
+                        .refitted = true}};
         return info;
     }
 

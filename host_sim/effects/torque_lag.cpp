@@ -1,5 +1,6 @@
 // Torque lag: the current loop follows what it is asked for.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,11 @@ class TorqueLag : public Effect {
             .reference = "Andoh 2008, section III-F; Leonhard, Control of Electrical Drives, 2001",
             .parameters = {{"time_constant", Quantity::time, 0, 1, "of the current loop"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque_rate,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"time_constant", 5e-4}},
+                        .beside = {}}};
         return info;
     }
 
@@ -65,6 +70,17 @@ class TorqueLag : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double band = draw.scenery().band_Hz;
+        return {.at =
+                    [this](double s) {
+                        return with({{"time_constant", s}});
+                    },
+                .start = 0.05 / band,
+                .least = 20e-6,
+                .most = 0.5 / band};
     }
 };
 

@@ -1,5 +1,6 @@
 // Torque saturation: the drive cannot deliver more than its limit.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -19,7 +20,11 @@ class TorqueSaturation : public Effect {
             .reference = "Leonhard, Control of Electrical Drives, 2001",
             .parameters = {{"limit", Quantity::torque, 1e-12, kInf, "largest torque either way"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque,
+                        .move = "trapezoid:velocity=60,acceleration=1500,cycles=3",
+                        .parameters = {{"limit", 0.015}},
+                        .beside = {}}};
         return info;
     }
 
@@ -54,6 +59,18 @@ class TorqueSaturation : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    // Strength: how much of the largest torque is cut.
+    Hiding hide(Draw& draw) const override {
+        const double top = draw.scenery().top_torque;
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"limit", top * (1 - s)}});
+                    },
+                .start = 0.25,
+                .least = 0.03,
+                .most = 0.6};
     }
 };
 
