@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 namespace servoid::cli {
 
@@ -100,13 +101,14 @@ void run_effects(const Options& o) {
     if (!o.name.empty()) {
         const Effect* effect = find_effect(o.name);
         if (!effect) throw UsageError("no effect is called " + o.name + "; see: servoid effects");
-        const Signature signature = signature_of(*effect);
         Json one = {{"schema", "servoid.effect/1"}};
         one.update(to_json(effect->info()));
-        one["picture"] = picture_json(signature);
+        std::optional<Signature> signature; // of a law that is not written yet: none
+        if (!effect->info().written) signature = signature_of(*effect);
+        if (signature) one["picture"] = picture_json(*signature);
         o.output.print_json(one);
         print_one(o.output, effect->info());
-        print_picture(o.output, signature, effect->info().picture);
+        if (signature) print_picture(o.output, *signature, effect->info().picture);
         return;
     }
     Json all = Json::array();

@@ -84,6 +84,11 @@ Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(moti
         for (Eigen::Index k = 0; k < motions[i].grid.count; ++k)
             if (motions[i].used[size_t(k)]) block_.push_back(first + block_at(motions[i], k));
     }
+    double fastest = 0;
+    for (const MotionView& view : views_)
+        fastest = std::max(fastest, view.top_speed());
+    for (MotionView& view : views_)
+        view.fastest = fastest;
     artifact_ = Vector::Zero(Eigen::Index(block_.size()));
 }
 

@@ -342,8 +342,8 @@ void refuse_if_reversed(const State& s, double error_held) {
     const Vector reversed = -s.assembly.torque;
     const LinearFit other =
         solve({s.assembly.columns, reversed, coefficient_values(s.model), fixed, lower});
-    const double error = (reversed - s.assembly.columns * other.values).norm() /
-                         std::max(1e-300, reversed.norm());
+    const double error =
+        (reversed - s.assembly.columns * other.values).norm() / std::max(1e-300, reversed.norm());
     if (!other.solved || !(other.values[0] > 0) || error > 0.7 * error_held) return;
     throw Refusal("the inertia does not come out positive: torque looks reversed",
                   "torque that is positive where it speeds the axis up");

@@ -68,7 +68,10 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     assembler.set_artifact(fitted.artifact);
     assembler.set_context(fitted.model);
     const MotionView& motion = assembler.views()[data.capture];
-    if (const std::string why = effect.cannot_show(motion); !why.empty())
+    std::string why; // none of the captures shows it
+    for (const MotionView& view : assembler.views())
+        if (why = effect.cannot_show(view); why.empty()) break;
+    if (!why.empty())
         throw Refusal(effect.info().name + " cannot be seen: " + why, "a move that shows it");
     const Search search{motion,      data.time_s,  data.position, data.velocity, data.acceleration,
                         data.torque, data.residual};

@@ -57,8 +57,9 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
         else if (must_be_known(p) && !(2 * p.estimate.std < std::abs(p.estimate.value)))
             out = p.name + " is not determined";
     }
-    const std::string why =
-        effect.implausible(c.fit.model.effects.back(), assembler.views().front());
+    std::string why; // one capture that it suits is enough
+    for (const MotionView& view : assembler.views())
+        if (why = effect.implausible(c.fit.model.effects.back(), view); why.empty()) break;
     if (!why.empty()) out = why;
     if (c.fit.torque.norm() < 0.7 * before.torque.norm())
         out = "far less torque than moved the axis";
@@ -81,7 +82,8 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before, Assem
         c.parameters.push_back(p);
         c.parameters.back().name = p.name.substr(dot + 1);
     }
-    const size_t own = effect.parameters(c.fit.model.effects.back()).size(); // the last of several of the same name
+    const size_t own = effect.parameters(c.fit.model.effects.back())
+                           .size(); // the last of several of the same name
     c.parameters.erase(c.parameters.begin(), c.parameters.end() - long(own));
     c.note = fault_of(c, effect, before, assembler);
     c.sound = c.note.empty();

@@ -15,6 +15,7 @@ namespace {
 constexpr double kBeyondNoise = 0.6;  // a gain that fed-back noise has not been seen to make
 constexpr double kFollows = 0.4;      // of a linear dynamics' gain must follow the reference
 constexpr double kAsked = 0.02;       // probability from which a gain is compared with noise's
+constexpr double kPerBound = 4;       // price, as a logarithm
 constexpr double kBeyondDoubt = 0.35; // error after over before: no noise does that
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
@@ -45,21 +46,35 @@ bool is_linear_dynamics(const std::string& effect) {
     return effect == "dead_time" || effect == "torque_lag" || effect == "elastic_load";
 }
 
-// Rejects dynamics whose gain does not follow the reference.
+// Noise of a loop does not repeat: what is removed beyond it is no noise.
+bool repeats(const Diagnosis& d, const Candidate& c) {
+    const double removed = d.error_before * d.error_before - c.error_after * c.error_after;
+    return d.floor_from_repetition && removed > d.noise_floor * d.noise_floor;
+}
+
+// Rejects dynamics whose gain does not follow the reference, or for which nothing tells.
 void reject_loop_noise(Diagnosis& d, Assembler& assembler) {
-    const auto gains = [&](const Candidate& c) {
-        return c.sound && is_linear_dynamics(c.effect) && c.error_after < d.error_before;
+    const auto doubtful = [&](const Candidate& c) {
+        if (!c.sound || !is_linear_dynamics(c.effect) || repeats(d, c)) return false;
+        return 1 - std::pow(c.error_after / d.error_before, 2) <= kBeyondNoise;
     };
-    if (std::none_of(d.candidates.begin(), d.candidates.end(), gains)) return;
+    if (std::none_of(d.candidates.begin(), d.candidates.end(), doubtful)) return;
     const std::optional<double> share =
         coherent_share(d.before.residual, assembler.motions(), assembler.blocks());
-    if (!share) return;
     for (Candidate& c : d.candidates) {
         const double gain = 1 - std::pow(c.error_after / d.error_before, 2);
-        if (!gains(c) || gain > kBeyondNoise || *share >= kFollows * gain) continue;
+        if (!doubtful(c) || (share && *share >= kFollows * gain)) continue;
         c.sound = false;
-        c.note = "noise that the loop feeds round: it does not follow the reference";
+        c.note = share ? "noise that the loop feeds round: it does not follow the reference"
+                       : "as well noise that the loop feeds round: record the reference";
     }
+}
+
+// Parameters that the candidate drives onto their bound: a friction that would come out negative is
+// a sign that something else is missing.
+double newly_bound(const FitResult& before, const FitResult& after) {
+    const double more = double(after.at_bound.size()) - double(before.at_bound.size());
+    return std::max(0.0, more);
 }
 
 void set_probabilities(Diagnosis& d) {
@@ -76,7 +91,8 @@ void set_probabilities(Diagnosis& d) {
         double v = -INFINITY;
         if (c.sound)
             v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count,
-                             find_effect(c.effect)->search_price()) -
+                             find_effect(c.effect)->search_price() +
+                                 kPerBound * newly_bound(d.before, c.fit)) -
                 (c.noise_gain > 0 ? count * c.noise_gain : 0);
         value.push_back(v);
     }

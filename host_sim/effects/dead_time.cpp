@@ -43,6 +43,11 @@ class DeadTime : public Effect {
     }
 
     bool delivers() const override { return true; }
+    // A slow one smooths the noise of the torque instead, and looks better for it.
+    std::string implausible(const EffectTerm& term, const MotionView&) const override {
+        return term.at("delay") > 0.05 ? "no drive answers that late" : "";
+    }
+
     std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"delay"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -100,7 +101,9 @@ struct MotionView {
     Eigen::VectorXd friction;  // torque of all friction of the model
     bool has_constant = false; // the model has a constant torque: no other effect needs its own
     Eigen::Index size() const { return velocity.size(); }
-    double top_speed() const { return velocity.cwiseAbs().maxCoeff(); }
+    bool torque_measured = false; // the torque that acts on the axis, not the one asked for
+    double fastest = 0;           // of all captures that are fitted together; 0: of this one
+    double top_speed() const { return std::max(fastest, velocity.cwiseAbs().maxCoeff()); }
     double travel() const {
         return position.size() ? position.maxCoeff() - position.minCoeff() : 0;
     }

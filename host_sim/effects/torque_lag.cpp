@@ -59,6 +59,11 @@ class TorqueLag : public Effect {
     }
 
     bool delivers() const override { return true; }
+    // A slow one smooths the noise of the torque instead, and looks better for it.
+    std::string implausible(const EffectTerm& term, const MotionView&) const override {
+        return term.at("time_constant") > 0.05 ? "no drive answers that late" : "";
+    }
+
     std::vector<std::string> shape_keys(const EffectTerm&) const override {
         return {"time_constant"};
     }

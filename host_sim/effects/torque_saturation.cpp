@@ -48,6 +48,9 @@ class TorqueSaturation : public Effect {
                    ? "far below the torque that moved the axis"
                    : "";
     }
+    std::string cannot_show(const MotionView& motion) const override {
+        return motion.torque_measured ? "the torque was measured: behind any limit" : "";
+    }
     bool delivers() const override { return true; }
     std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"limit"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
