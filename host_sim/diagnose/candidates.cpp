@@ -72,7 +72,8 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
 // Fills in what a fit says of its last effect.
 void describe(Candidate& c, const Effect& effect, const FitResult& before, Assembler& assembler) {
     c.error_after = c.fit.torque_error;
-    c.validation_error_after = held_out_error(c.fit, assembler);
+    c.blocks_after = held_out_blocks(c.fit, assembler);
+    c.validation_error_after = error_of(c.blocks_after);
     const std::string prefix = effect.info().name;
     c.parameters.clear();
     for (const FittedParameter& p : c.fit.parameters) {
