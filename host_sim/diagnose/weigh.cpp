@@ -2,6 +2,7 @@
 
 #include "diagnose/coherence.hpp"
 #include "diagnose/evidence.hpp"
+#include "diagnose/structure.hpp"
 #include "diagnose/twin.hpp"
 #include "effects/catalogue.hpp"
 
@@ -27,8 +28,10 @@ constexpr double kBeyondDoubt = 0.35; // error after over before: no noise does 
 constexpr double kMostCount = 150;
 
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
+// Errors are told apart down to half of what is slight.
 double log_evidence(const FitResult& fit, double error, double count, double price) {
-    return -count * std::log(error) - 0.5 * fit.free_parameters * std::log(count) - price;
+    return -count * std::log(std::hypot(error, kSlight / 2)) -
+           0.5 * fit.free_parameters * std::log(count) - price;
 }
 
 // Asymmetric Coulomb friction is Coulomb friction and a constant torque: where both explain the
