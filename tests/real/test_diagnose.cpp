@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <cstdio>
+#include <filesystem>
+#include <numbers>
 
 using namespace servoid;
 
@@ -14,6 +18,62 @@ namespace {
 bool has(const Refinement& r, const std::string& effect) {
     return std::any_of(r.ladder.begin(), r.ladder.end(),
                        [&](const Rung& rung) { return rung.added == effect; });
+}
+
+std::vector<std::string> cogging_orders(const FitResult& fit) {
+    std::vector<std::string> out;
+    for (const FittedParameter& p : fit.parameters)
+        if (p.name.starts_with("cogging") && p.name.ends_with(".order"))
+            out.push_back(std::to_string(std::lround(p.estimate.value)));
+    return out;
+}
+
+double mean(const std::vector<double>& x) {
+    double sum = 0;
+    for (double v : x)
+        sum += v;
+    return sum / double(x.size());
+}
+
+// ‖T − T̂‖/‖T‖ over the means of constant-speed runs.
+double error_of_run_means(const std::vector<Capture>& runs, const Model& m) {
+    const auto at = [&](const char* effect, const char* key) {
+        const EffectTerm* term = m.find(effect);
+        return term ? term->at(key) : 0.0;
+    };
+    double miss = 0, all = 0;
+    for (const Capture& run : runs) {
+        const double v = mean(run.velocity), t = mean(run.torque), vs = at("stribeck", "velocity");
+        const double extra =
+            vs > 0 ? at("stribeck", "extra_torque") * std::exp(-v * v / (vs * vs)) : 0;
+        const double model = at("viscous", "coefficient") * v + at("constant_torque", "torque") +
+                             std::copysign(at("coulomb", "torque") + extra, v);
+        miss += (t - model) * (t - model), all += t * t;
+    }
+    return std::sqrt(miss / all);
+}
+
+// The fundamental of the last whole periods on line k of a signal on the grid.
+std::complex<double> line(const Eigen::VectorXd& x, Eigen::Index points, int k) {
+    const Eigen::Index first = x.size() - (x.size() / points - 1) * points;
+    std::complex<double> sum = 0;
+    for (Eigen::Index i = first; i < x.size(); ++i)
+        sum += x[i] * std::polar(1.0, -2 * std::numbers::pi * k * double(i) / double(points));
+    return sum / double(x.size() - first);
+}
+
+// ‖G − Ĝ‖/‖G‖ over the excited lines, G = velocity / torque: Ĝ/G − 1 is the residual over the
+// torque, to first order.
+double frf_error(const Model& model, const PreparedMotion& m, int from_Hz, int to_Hz, int step_Hz) {
+    const Eigen::VectorXd residual = residual_torque(model, m);
+    const auto points = Eigen::Index(std::lround(*m.period_s / m.grid.step_s));
+    double miss = 0, all = 0;
+    for (int k = from_Hz; k <= to_Hz; k += step_Hz) {
+        const auto torque = line(m.torque, points, k);
+        const double g = std::norm(line(m.velocity, points, k) / torque);
+        miss += g * std::norm(line(residual, points, k) / torque), all += g;
+    }
+    return std::sqrt(miss / all);
 }
 
 double value(const FitResult& fit, const std::string& name) {
@@ -64,7 +124,60 @@ TEST(Diagnosis, MotorBenchIsAnElasticLoadBehindADeadTime) {
                 "76.3 within 1 %%)\n",
                 wa, wr);
     std::printf("figure: motor bench, dead time = %.3f ms (asked: 0.10 ± 0.05)\n", 1e3 * delay);
+    const double frf = frf_error(r.result.model, prepare_all(captures, {}).front(), 13, 249, 4);
+    std::printf("figure: motor bench, error of the frequency response = %.3g %% (asked: 4 %%)\n",
+                100 * frf);
+    EXPECT_LT(frf, 0.04);
     EXPECT_NEAR(wa, 54.0, 0.54);
     EXPECT_NEAR(wr, 76.3, 0.763);
     EXPECT_NEAR(delay, 1e-4, 5e-5);
+}
+
+TEST(Diagnosis, EposIsCoulombAndThenStribeck) {
+    const std::string folder = measured::data_folder() + "/epos_drive1";
+    SERVOID_SKIP_WITHOUT(folder);
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().filename().string().starts_with("steady")) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<Capture> runs;
+    for (const std::string& file : files)
+        runs.push_back(read_capture(file));
+    const auto motions = prepare_all(runs, {});
+    Model model = parse_model("motion = \"rotary\"\n[plant]\ninertia = 2.5e-6\n"
+                              "[effects.viscous]\ncoefficient = 2e-5\n"
+                              "[effects.constant_torque]\ntorque = 0.0\n",
+                              "epos");
+    const char* expected[] = {"coulomb", "stribeck"};
+    std::printf("figure: EPOS, run means, viscous and constant torque = %.3g %%\n",
+                100 * error_of_run_means(runs, fit(model, motions).model));
+    for (const char* effect : expected) {
+        const Diagnosis d = diagnose(model, motions);
+        ASSERT_EQ(d.candidates.front().effect, effect);
+        model = d.candidates.front().fit.model;
+        std::printf("figure: EPOS, run means, + %s = %.3g %%\n", effect,
+                    100 * error_of_run_means(runs, model));
+    }
+    EXPECT_LT(error_of_run_means(runs, model), 0.035);
+}
+
+TEST(Diagnosis, OdriveIsCoggingOfOrder7AndItsRelatives) {
+    const std::string file = measured::data_folder() + "/odrive_slow/odrive_slow.csv";
+    SERVOID_SKIP_WITHOUT(file);
+    const std::vector<Capture> captures = {read_capture(file)};
+    const Model model = parse_model("motion = \"rotary\"\n[plant]\ninertia = 2.5e-4\n"
+                                    "[effects.constant_torque]\ntorque = 0.2\n",
+                                    "odrive");
+    const Refinement r = refine(model, prepare_all(captures, {}), {});
+    ASSERT_GE(r.ladder.size(), 4u);
+    EXPECT_EQ(r.ladder[1].added, "cogging");
+    const std::vector<std::string> orders = cogging_orders(r.result);
+    ASSERT_FALSE(orders.empty());
+    EXPECT_EQ(orders[0], "7");
+    std::string text;
+    for (const std::string& order : orders)
+        text += (text.empty() ? "" : ", ") + order;
+    std::printf("figure: ODrive, orders = %s (asked: 7, then 28, 14, 12)\n", text.c_str());
+    for (const char* order : {"28", "14", "12"})
+        EXPECT_NE(std::find(orders.begin(), orders.end(), order), orders.end()) << order;
 }
