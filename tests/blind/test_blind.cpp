@@ -27,8 +27,8 @@ constexpr int kThreads = 2;
 struct Level {
     double asked, held;
 };
-constexpr Level kNamedFirst{0.95, 0.92}, kParameters{0.90, 0.84}, kToFloor{0.95, 0.37};
-constexpr Level kAdequate{0.98, 0.60}, kBothFound{0.90, 0.66}, kNotNamed{0.90, 0.10};
+constexpr Level kNamedFirst{0.95, 0.94}, kParameters{0.90, 0.88}, kToFloor{0.95, 0.40};
+constexpr Level kAdequate{0.98, 0.90}, kBothFound{0.90, 0.80}, kNotNamed{0.90, 0.60};
 
 void hold(const char* what, double reached, Level level) {
     fmt::print("figure: {} {:.1f} % (asked: {:.0f} %, held: {:.0f} %)\n", what, 100 * reached,

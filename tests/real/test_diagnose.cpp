@@ -128,6 +128,10 @@ TEST(Diagnosis, MotorBenchIsAnElasticLoadBehindADeadTime) {
     std::printf("figure: motor bench, error of the frequency response = %.3g %% (asked: 4 %%)\n",
                 100 * frf);
     EXPECT_LT(frf, 0.04);
+    std::printf(
+        "figure: motor bench, motor's share of the inertia = %.4f (asked: 0.5 within 3 %%)\n",
+        std::pow(wa / wr, 2));
+    EXPECT_NEAR(std::pow(wa / wr, 2), 0.5, 0.015);
     EXPECT_NEAR(wa, 54.0, 0.54);
     EXPECT_NEAR(wr, 76.3, 0.763);
     EXPECT_NEAR(delay, 1e-4, 5e-5);
