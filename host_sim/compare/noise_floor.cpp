@@ -9,6 +9,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
+constexpr long kFewest = 16; // points that are used in every period, or pairs of points
+
 // One row per whole period; points that are not used anywhere in their column are zero everywhere.
 Eigen::MatrixXd by_period(const PreparedMotion& m, const Vector& residual, Eigen::Index points) {
     const Eigen::Index periods = residual.size() / points;
@@ -45,22 +47,8 @@ double torque_rms(const PreparedMotion& m) {
     return n ? std::sqrt(sum / double(n)) : 0;
 }
 
-NoiseFloor from_repetition(const PreparedMotion& m, const Vector& residual, Eigen::Index points) {
-    const Eigen::MatrixXd rows = without_transient(by_period(m, residual, points));
-    const auto periods = double(rows.rows());
-    const Eigen::RowVectorXd mean = rows.colwise().mean();
-    const double used = double((rows.row(0).array() != 0).count());
-    const double noise = (rows.rowwise() - mean).squaredNorm() / (periods - 1) / used;
-    const double total = rows.squaredNorm() / periods / used;
-    NoiseFloor out;
-    out.from_repetition = true;
-    out.periods = int(rows.rows());
-    out.ratio = std::sqrt(noise) / torque_rms(m);
-    out.repeatable_share = total > 0 ? std::clamp(1 - noise / total, 0.0, 1.0) : 0;
-    return out;
-}
-
-// Less than two whole periods: what differs between the instants that are a period apart.
+// Less than two whole periods, or hardly a point that is used in all of them: what differs between
+// the instants that are a period apart.
 NoiseFloor from_overlap(const PreparedMotion& m, const Vector& residual, Eigen::Index points) {
     double difference = 0, power = 0;
     long pairs = 0;
@@ -71,11 +59,27 @@ NoiseFloor from_overlap(const PreparedMotion& m, const Vector& residual, Eigen::
         ++pairs;
     }
     NoiseFloor out;
-    out.from_repetition = pairs >= 16;
+    out.from_repetition = pairs >= kFewest;
     if (!out.from_repetition) return out;
     out.periods = 2;
     out.ratio = std::sqrt(difference / double(pairs)) / torque_rms(m);
     out.repeatable_share = power > 0 ? std::clamp(1 - difference / power, 0.0, 1.0) : 0;
+    return out;
+}
+
+NoiseFloor from_repetition(const PreparedMotion& m, const Vector& residual, Eigen::Index points) {
+    const Eigen::MatrixXd rows = without_transient(by_period(m, residual, points));
+    const auto periods = double(rows.rows());
+    const Eigen::RowVectorXd mean = rows.colwise().mean();
+    const double used = double((rows.row(0).array() != 0).count());
+    if (used < kFewest) return from_overlap(m, residual, points);
+    const double noise = (rows.rowwise() - mean).squaredNorm() / (periods - 1) / used;
+    const double total = rows.squaredNorm() / periods / used;
+    NoiseFloor out;
+    out.from_repetition = true;
+    out.periods = int(rows.rows());
+    out.ratio = std::sqrt(noise) / torque_rms(m);
+    out.repeatable_share = total > 0 ? std::clamp(1 - noise / total, 0.0, 1.0) : 0;
     return out;
 }
 

@@ -34,18 +34,18 @@ double log_evidence(const FitResult& fit, double error, double count, double pri
            0.5 * fit.free_parameters * std::log(count) - price;
 }
 
-// Asymmetric Coulomb friction is Coulomb friction and a constant torque: where both explain the
-// residual about as well, the simpler name wins.
+// Asymmetric Coulomb friction is Coulomb friction and a constant torque: where one of them alone
+// explains the residual about as well, the simpler name wins.
 void prefer_simple_names(const Diagnosis& d, std::vector<double>& evidence) {
-    size_t rich = d.candidates.size(), simple = rich;
-    for (size_t i = 0; i < d.candidates.size(); ++i) {
-        if (d.candidates[i].effect == "coulomb_asymmetric") rich = i;
-        if (d.candidates[i].effect == "constant_torque" && d.candidates[i].sound) simple = i;
+    for (size_t rich = 0; rich < d.candidates.size(); ++rich) {
+        if (d.candidates[rich].effect != "coulomb_asymmetric") continue;
+        for (size_t simple = 0; simple < d.candidates.size(); ++simple) {
+            const Candidate& c = d.candidates[simple];
+            if (!c.sound || (c.effect != "constant_torque" && c.effect != "coulomb")) continue;
+            if (c.validation_error_after < 1.1 * d.candidates[rich].validation_error_after)
+                evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
+        }
     }
-    if (rich == d.candidates.size() || simple == d.candidates.size()) return;
-    const double a = d.candidates[simple].validation_error_after;
-    if (a < 1.1 * d.candidates[rich].validation_error_after)
-        evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
 }
 
 // Linear dynamics between asked torque and motion: what noise in a closed loop imitates.
