@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "compare/linear_fit.hpp"
+#include "compare/one_way.hpp"
 #include "effects/catalogue.hpp"
 
 #include <Eigen/Dense>
@@ -17,6 +18,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
+constexpr double kTakesWork = 0.02;     // of the power's size: the torque drives the axis
 
 // A shape parameter that the fit may move.
 struct Shape {
@@ -192,12 +194,7 @@ bool is_free(const Model& model, const std::string& prefix) {
 // On one-way motion Coulomb friction and a constant torque are the same thing.
 void refuse_one_way(const Model& model, const std::vector<PreparedMotion>& motions) {
     if (!is_free(model, "coulomb") || !is_free(model, "constant_torque")) return;
-    double forward = 0, reverse = 0;
-    for (const PreparedMotion& m : motions)
-        for (Eigen::Index k = 0; k < m.velocity.size(); ++k)
-            if (m.used[size_t(k)])
-                (m.velocity[k] > 0 ? forward : reverse) += std::abs(m.velocity[k]) * m.grid.step_s;
-    if (std::min(forward, reverse) > 0.02 * std::max(forward, reverse)) return;
+    if (!moves_one_way(motions)) return;
     throw Refusal("the axis moves one way only: Coulomb friction and a constant torque cannot be "
                   "told apart",
                   "the same move in both directions, or fix one of them in the model");
@@ -335,7 +332,9 @@ double linear_error(const Model& model, Assembler& assembler) {
 namespace {
 
 // The torque counted the other way round explains the motion: not a missing effect.
-void refuse_if_reversed(const State& s, double error_held) {
+void refuse_if_reversed(const State& s, double error_held,
+                        const std::vector<PreparedMotion>& motions) {
+    if (work_share(motions) > kTakesWork) return;
     std::vector<bool> fixed;
     std::vector<double> lower;
     for (const Coefficient& c : s.assembly.coefficients)
@@ -343,8 +342,8 @@ void refuse_if_reversed(const State& s, double error_held) {
     const Vector reversed = -s.assembly.torque;
     const LinearFit other =
         solve({s.assembly.columns, reversed, coefficient_values(s.model), fixed, lower});
-    const double error = (reversed - s.assembly.columns * other.values).norm() /
-                         std::max(1e-300, reversed.norm());
+    const double error =
+        (reversed - s.assembly.columns * other.values).norm() / std::max(1e-300, reversed.norm());
     if (!other.solved || !(other.values[0] > 0) || error > 0.7 * error_held) return;
     throw Refusal("the inertia does not come out positive: torque looks reversed",
                   "torque that is positive where it speeds the axis up");
@@ -360,7 +359,7 @@ FitResult with_inertia_held(const Model& model, const State& s, Assembler& assem
                       "together (a wrong column or unit)",
                       "torque that is positive where it speeds the axis up");
     FitResult out = fit(held, assembler, options);
-    refuse_if_reversed(s, out.torque_error);
+    refuse_if_reversed(s, out.torque_error, assembler.motions());
     out.model.inertia_fixed = false;
     return out;
 }
