@@ -89,7 +89,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("Every verb has --help with examples.");
     for (auto add : {add_simulate, add_identify, add_sweep, add_friction, add_compare, add_add,
-                     add_effects, add_diagnose, add_refine})
+                     add_effects, add_diagnose, add_refine, add_reveal})
         add(app);
     try {
         app.parse(argc, argv);

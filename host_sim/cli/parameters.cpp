@@ -41,11 +41,29 @@ Json sensor_json(const Model& model) {
     return {{"counts_per_rev", 2 * std::numbers::pi / step}};
 }
 
+// Below custom, by name; an array where a name stands more than once.
+void add_custom(Json& customs, const EffectTerm& term) {
+    Json table = {{"law", term.law}};
+    if (!term.fixed.empty()) table["fixed"] = term.fixed;
+    table["parameters"] = Json::object();
+    for (const auto& [key, value] : term.parameters)
+        table["parameters"][key] = value;
+    Json& place = customs[term.name.substr(term.name.find('.') + 1)];
+    if (place.is_object()) place = Json::array({place});
+    if (place.is_array())
+        place.push_back(table);
+    else
+        place = table;
+}
+
 Json effects_json(const Model& model) {
     Json out = Json::object();
     for (const EffectTerm& term : model.effects) {
+        if (!term.law.empty()) {
+            add_custom(out["custom"], term);
+            continue;
+        }
         Json table = Json::object();
-        if (!term.law.empty()) table["law"] = term.law;
         for (const auto& [key, value] : term.parameters)
             table[key] = value;
         if (!term.fixed.empty()) table["fixed"] = term.fixed;

@@ -1,7 +1,9 @@
 // servoid add: one more effect, fitted with everything else.
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
+#include "cli/custom_argument.hpp"
 #include "cli/parameters.hpp"
+#include "common/error.hpp"
 #include "common/file.hpp"
 #include "compare/compare.hpp"
 #include "diagnose/add_effect.hpp"
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 namespace servoid::cli {
 
@@ -20,16 +23,26 @@ struct Options {
     std::string effect, model, out;
 };
 
+Addition add_law(const Model& model, const EffectTerm& term,
+                 const std::vector<PreparedMotion>& motions) {
+    if (model.find(term.name))
+        throw UsageError(term.name + " cannot be added: the model has it already");
+    return add_term(model, term, motions);
+}
+
 void run_add(const Options& o) {
+    std::optional<EffectTerm> law;
+    if (is_custom(o.effect)) law = parse_custom(o.effect);
+    const std::string name = law ? law->name : o.effect;
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const std::vector<std::string> warnings = check_capture(model, motions, o.output);
-    const Addition a = add_effect(model, o.effect, motions);
+    const Addition a = law ? add_law(model, *law, motions) : add_effect(model, name, motions);
     const bool ampere = captures.front().torque_in_ampere;
     if (!o.out.empty()) write_file(o.out, format_model(a.after.model));
     o.output.print_json({{"schema", "servoid.add/1"},
-                         {"effect", o.effect},
+                         {"effect", name},
                          {"error_before", number(a.before.torque_error)},
                          {"error_after", number(a.after.torque_error)},
                          {"band_Hz", motions.front().band_Hz},
@@ -39,7 +52,7 @@ void run_add(const Options& o) {
                          {"model_parameters", fitted_parameters(a.after, ampere)}});
     o.output.line(fmt::format(
         "torque error   {} -> {}   with {} ({:.3g} Hz band)", percent(a.before.torque_error),
-        o.output.bold(percent(a.after.torque_error)), o.effect, motions.front().band_Hz));
+        o.output.bold(percent(a.after.torque_error)), name, motions.front().band_Hz));
     print_parameters(o.output, a.after, ampere);
     if (!o.out.empty()) o.output.line("wrote " + o.out);
 }
@@ -49,14 +62,19 @@ void run_add(const Options& o) {
 void add_add(CLI::App& app) {
     auto o = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("add", "add one effect, fit it and everything else again");
-    verb->add_option("effect", o->effect, "its name, see: servoid effects")->required();
+    verb->add_option(
+            "effect", o->effect,
+            "its name, see: servoid effects; or a law: custom.NAME=LAW[;PARAMETER=START...]")
+        ->required();
     verb->add_option("model", o->model, "model file (TOML)")->required();
     verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
     verb->add_option("--out", o->out, "where the larger model is written (- for stdout)");
     add_capture_options(*verb, o->captures);
     add_output_options(*verb, o->output);
     add_examples(*verb, "  servoid add viscous model.toml run.csv --out better.toml\n"
-                        "  servoid add coulomb better.toml run.csv --out better.toml --json");
+                        "  servoid add coulomb better.toml run.csv --out better.toml --json\n"
+                        "  servoid add 'custom.cubic=k*theta^3' model.toml run.csv --out m2.toml\n"
+                        "  servoid add 'custom.s=k*tanh(v/vs);vs=0.1' model.toml run.csv");
     verb->callback([o] { run_add(*o); });
 }
 

@@ -1,12 +1,18 @@
 // servoid effects: the catalogue.
 #include "cli/app.hpp"
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "effects/catalogue.hpp"
+#include "report/signature.hpp"
+#include "report/text_plot.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 
 namespace servoid::cli {
 
@@ -19,6 +25,35 @@ struct Options {
 
 Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+// A terminal that says it speaks UTF-8; a pipe or a file gets ASCII.
+bool speaks_utf8() {
+    if (!isatty(STDOUT_FILENO)) return false;
+    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+        const char* value = std::getenv(name);
+        if (!value || !*value) continue; // the first one that is set decides
+        const std::string lower = lower_case(value);
+        return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
+    }
+    return false;
+}
+
+Json picture_json(const Signature& s) {
+    return {{"x", s.x},           {"y", s.y},           {"x_name", s.x_name},
+            {"x_unit", s.x_unit}, {"y_name", s.y_name}, {"y_unit", s.y_unit}};
+}
+
+void print_picture(const Output& out, const Signature& s, const Picture& picture) {
+    TextPlot plot;
+    plot.braille = speaks_utf8();
+    plot.smallest_range = s.smallest_range;
+    plot.x_label = s.x_name + ", " + s.x_unit;
+    plot.y_label = s.y_name + ", " + s.y_unit;
+    out.line("");
+    for (const std::string& line : draw(s.x, s.y, plot))
+        out.line(line);
+    out.line(out.dim("a small motor with it, less a model without it, in " + picture.move));
+}
+
 Json to_json(const EffectInfo& info) {
     Json parameters = Json::array();
     for (const ParameterInfo& p : info.parameters)
@@ -28,15 +63,17 @@ Json to_json(const EffectInfo& info) {
                               {"lower", bound(p.lower)},
                               {"upper", bound(p.upper)},
                               {"meaning", p.meaning}});
-    return {{"name", info.name},
-            {"law", info.law},
-            {"signature", info.signature},
-            {"reference", info.reference},
-            {"parameters", parameters},
-            {"replaces", info.replaces},
-            {"needs", info.needs},
-            {"rotary_only", info.rotary_only},
-            {"repeatable", info.repeatable}};
+    Json out = {{"name", info.name},
+                {"law", info.law},
+                {"signature", info.signature},
+                {"reference", info.reference},
+                {"parameters", parameters},
+                {"replaces", info.replaces},
+                {"needs", info.needs},
+                {"rotary_only", info.rotary_only},
+                {"repeatable", info.repeatable}};
+    if (!info.example.empty()) out["example"] = info.example;
+    return out;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -54,6 +91,10 @@ void print_one(const Output& out, const EffectInfo& info) {
         out.line(fmt::format("  {:<26} {:<12} {:<10} {}", p.key,
                              unit_of(p.quantity, Motion::rotary),
                              unit_of(p.quantity, Motion::linear), p.meaning));
+    if (info.example.empty()) return;
+    out.line("  example");
+    for (const std::string& line : split(info.example, '\n'))
+        out.line(line.empty() ? "" : "    " + line);
 }
 
 void run_effects(const Options& o) {
@@ -62,8 +103,12 @@ void run_effects(const Options& o) {
         if (!effect) throw UsageError("no effect is called " + o.name + "; see: servoid effects");
         Json one = {{"schema", "servoid.effect/1"}};
         one.update(to_json(effect->info()));
+        std::optional<Signature> signature; // of a law that is not written yet: none
+        if (!effect->info().written) signature = signature_of(*effect);
+        if (signature) one["picture"] = picture_json(*signature);
         o.output.print_json(one);
         print_one(o.output, effect->info());
+        if (signature) print_picture(o.output, *signature, effect->info().picture);
         return;
     }
     Json all = Json::array();

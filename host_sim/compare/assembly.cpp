@@ -17,7 +17,8 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kBlocksPerCapture = 24;
 constexpr size_t kMostCached = 400;
-constexpr int kMostPasses = 20; // 0.6 of friction per torque leaves 4e-5
+constexpr int kMostPasses = 20;   // of a torque that depends on itself: 0.6 of it leaves 4e-5
+constexpr double kSettled = 1e-6; // of the torque
 
 const Effect& effect_of(const EffectTerm& term) {
     const Effect* effect = find_effect(term.name);
@@ -49,11 +50,9 @@ std::vector<Coefficient> coefficients_of(const Model& model) {
     for (size_t i = 0; i < model.effects.size(); ++i) {
         const EffectTerm& term = model.effects[i];
         const Effect& effect = effect_of(term);
-        for (int k = 0; k < effect.linear_count(); ++k) {
-            const std::string& key = effect.info().parameters[size_t(k)].key;
-            out.push_back(
-                {int(i), k, term.is_fixed(key), effect.linear_lower(k), effect.may_vanish(k)});
-        }
+        for (int k = 0; k < effect.linear_count(term); ++k)
+            out.push_back({int(i), k, effect.linear_fixed(term, k), effect.linear_lower(k),
+                           effect.may_vanish(k)});
     }
     return out;
 }
@@ -72,8 +71,9 @@ void set_coefficient_values(Model& model, const Vector& values) {
     Eigen::Index next = 1;
     for (EffectTerm& term : model.effects) {
         const Effect& effect = effect_of(term);
-        effect.set_linear(term, values.segment(next, effect.linear_count()));
-        next += effect.linear_count();
+        const int count = effect.linear_count(term);
+        effect.set_linear(term, values.segment(next, count));
+        next += count;
     }
 }
 
@@ -84,8 +84,25 @@ Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(moti
         for (Eigen::Index k = 0; k < motions[i].grid.count; ++k)
             if (motions[i].used[size_t(k)]) block_.push_back(first + block_at(motions[i], k));
     }
+    double fastest = 0;
+    for (const MotionView& view : views_)
+        fastest = std::max(fastest, view.top_speed());
+    for (MotionView& view : views_)
+        view.fastest = fastest;
     artifact_ = Vector::Zero(Eigen::Index(block_.size()));
 }
+
+namespace {
+
+// `torque`: what came out; `view`: what it was made from.
+void refuse_if_undefined(const Model& model, const MotionView& view, const Vector& torque) {
+    if (torque.allFinite()) return;
+    for (const EffectTerm& term : model.effects)
+        if (const std::string where = effect_of(term).undefined(term, view); !where.empty())
+            throw Refusal(where, "a motion on which the law has a value, or change the law");
+}
+
+} // namespace
 
 MotionView in_context(const Model& model, MotionView view) {
     view.inertia = model.inertia;
@@ -104,20 +121,22 @@ MotionView in_context(const Model& model, MotionView view) {
     view.torque = model.inertia * inertia + view.friction;
     for (const EffectTerm& term : model.effects) {
         const Effect& effect = effect_of(term);
-        if (!is_friction(term.name) && !effect.uses_torque() && effect.linear_count() > 0)
+        if (!is_friction(term.name) && !effect.uses_torque(term) && effect.linear_count(term) > 0)
             view.torque += effect.columns(term, view) * effect.linear(term);
     }
+    refuse_if_undefined(model, view, view.torque);
     const Vector torque = view.torque;
     // Each pass leaves a share of its change: the friction per torque, or the depth of a ripple.
     for (int pass = 0; pass < kMostPasses; ++pass) {
         Vector more = torque;
         for (const EffectTerm& term : model.effects) {
             const Effect& effect = effect_of(term);
-            if (effect.uses_torque()) more += effect.columns(term, view) * effect.linear(term);
+            if (effect.uses_torque(term)) more += effect.columns(term, view) * effect.linear(term);
         }
         const double change = (more - view.torque).norm();
+        if (!std::isfinite(change)) refuse_if_undefined(model, view, more);
         view.torque = more;
-        if (change <= 1e-4 * more.norm()) break;
+        if (change <= kSettled * more.norm()) break;
     }
     return view;
 }
@@ -153,10 +172,10 @@ void append_rows(Matrix& all, const Matrix& more) {
 const Matrix& Assembler::columns_of(const EffectTerm& term) {
     const Effect& effect = effect_of(term);
     std::string key = key_of(term);
-    if (effect.depends_on_model()) key += "|" + context_;
+    if (effect.depends_on_model(term)) key += "|" + context_;
     auto found = cache_.find(key);
     if (found != cache_.end()) return found->second;
-    Matrix all(0, effect.linear_count());
+    Matrix all(0, effect.linear_count(term));
     for (size_t i = 0; i < motions_.size(); ++i)
         append_rows(all, used_rows(i, motions_[i].band_limit(effect.columns(term, views_[i]))));
     return cache_.emplace(key, std::move(all)).first->second;
@@ -206,7 +225,7 @@ Assembly Assembler::assemble(const Model& model) {
     out.columns.col(0) = inertia_of(model);
     Eigen::Index next = 1;
     for (const EffectTerm& term : model.effects) {
-        const int count = effect_of(term).linear_count();
+        const int count = effect_of(term).linear_count(term);
         if (count == 0) continue;
         out.columns.middleCols(next, count) = columns_of(term);
         next += count;

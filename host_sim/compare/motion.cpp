@@ -159,6 +159,7 @@ void fill_grid(PreparedMotion& out, Input input) {
     const Capture& capture = *out.capture;
     const TorqueChoice choice = choose_torque(capture, input);
     out.input = choice.input;
+    out.motion.torque_measured = choice.input == Input::measured;
     out.torque_name = choice.name;
     out.asked = {on_even_grid(capture, *choice.values), capture.sample_time_s, choice.held,
                  capture.torque_delay_s};

@@ -3,6 +3,8 @@
 #include "common/error.hpp"
 #include "compare/linear_fit.hpp"
 #include "compare/one_way.hpp"
+#include "compare/refusals.hpp"
+#include "compare/start_search.hpp"
 #include "effects/catalogue.hpp"
 
 #include <Eigen/Dense>
@@ -17,6 +19,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+constexpr int kMostContexts = 12;       // of a law that depends on the torque
 constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
 constexpr double kTakesWork = 0.02;     // of the power's size: the torque drives the axis
 
@@ -34,9 +37,9 @@ std::vector<Shape> shapes_of(const Model& model, size_t first = 0) {
     for (size_t i = first; i < model.effects.size(); ++i) {
         const EffectTerm& term = model.effects[i];
         const Effect& effect = *find_effect(term.name);
-        for (const std::string& key : effect.shape_keys()) {
+        for (const std::string& key : effect.shape_keys(term)) {
             if (term.is_fixed(key)) continue;
-            for (const ParameterInfo& p : effect.info().parameters)
+            for (const ParameterInfo& p : effect.parameters(term))
                 if (p.key == key) out.push_back({i, key, p.lower, p.upper, effect.slope_step()});
         }
     }
@@ -75,7 +78,9 @@ State evaluate(const Model& model, Assembler& assembler) {
 }
 
 double step_of(const Shape& shape, double value) {
-    const double step = shape.step * std::max(std::abs(value), 1e-12);
+    // Near zero nothing says how large a shape is that may lie on either side.
+    const double least = shape.lower < 0 ? 1e-6 : 1e-12;
+    const double step = shape.step * std::max(std::abs(value), least);
     return value + step <= shape.upper ? step : -step;
 }
 
@@ -99,10 +104,12 @@ Model moved_by(const State& s, const std::vector<Shape>& shapes, const Vector& b
     Model out = s.model;
     for (size_t i = 0; i < shapes.size(); ++i) {
         double& value = out.effects[shapes[i].term].parameters[shapes[i].key];
-        // No step takes a shape further than to three times or a third of what it was.
+        // No step takes a shape further than to three times or a third of what it was; a place that
+        // may lie on either side of zero begins there.
         const double was = value;
         value = std::clamp(value + by[Eigen::Index(i)], shapes[i].lower, shapes[i].upper);
-        if (was > 0 && shapes[i].lower >= 0) value = std::clamp(value, was / 3, was * 3);
+        if (was != 0)
+            value = std::clamp(value, std::min(was / 3, was * 3), std::max(was / 3, was * 3));
     }
     return out;
 }
@@ -110,11 +117,13 @@ Model moved_by(const State& s, const std::vector<Shape>& shapes, const Vector& b
 // A shape that the user believes in is known to some ten per cent. Where the motion does not show
 // it, it would else run away and take up what something else has caused; where it does, the belief
 // weighs nothing. Residuals are correlated: as if one in ten samples were independent.
-void stay_near_beliefs(std::vector<Shape>& shapes, const State& s, size_t believed_terms) {
+void stay_near_beliefs(std::vector<Shape>& shapes, const State& s, const FitOptions& options) {
     constexpr double kBelief = 0.1, kCorrelated = 10;
     for (Shape& shape : shapes) {
-        const double value = s.model.effects[shape.term].at(shape.key);
-        if (shape.term >= believed_terms || !(value > 0)) continue;
+        const EffectTerm& term = s.model.effects[shape.term];
+        const double value = term.at(shape.key);
+        if (shape.term >= options.believed_terms || !(value > 0)) continue;
+        if (options.start_values && find_effect(term.name)->info().written) continue;
         shape.lower = std::max(shape.lower, value / 1.5);
         shape.upper = std::min(shape.upper, value * 1.5);
         shape.belief = value;
@@ -136,12 +145,14 @@ double objective(const State& s, const std::vector<Shape>& shapes) {
 // whether it came to rest.
 bool descend(State& s, Assembler& assembler, const FitOptions& options) {
     std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
-    stay_near_beliefs(shapes, s, options.believed_terms);
+    stay_near_beliefs(shapes, s, options);
     if (shapes.empty()) return true;
     double damping = 1e-3;
     for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
         const Matrix x = pick(s.assembly.columns, s.linear.free);
         Matrix slopes = shape_slopes(s, shapes, assembler);
+        for (Eigen::Index i = 0; i < slopes.cols(); ++i) // a law without a value beside this one
+            if (!slopes.col(i).allFinite()) slopes.col(i).setZero();
         if (x.cols() > 0) slopes -= x * (x.transpose() * x).ldlt().solve(x.transpose() * slopes);
         const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
         slopes = slopes * scale.asDiagonal();
@@ -185,19 +196,8 @@ void refuse_if_alike(const State& s) {
                   "a move in both directions with several speeds and accelerations");
 }
 
-bool is_free(const Model& model, const std::string& prefix) {
-    return std::any_of(model.effects.begin(), model.effects.end(), [&](const EffectTerm& term) {
-        return term.name.starts_with(prefix) && term.fixed.empty();
-    });
-}
-
-// On one-way motion Coulomb friction and a constant torque are the same thing.
-void refuse_one_way(const Model& model, const std::vector<PreparedMotion>& motions) {
-    if (!is_free(model, "coulomb") || !is_free(model, "constant_torque")) return;
-    if (!moves_one_way(motions)) return;
-    throw Refusal("the axis moves one way only: Coulomb friction and a constant torque cannot be "
-                  "told apart",
-                  "the same move in both directions, or fix one of them in the model");
+bool settled(const Vector& before, const Vector& after) {
+    return ((after - before).array().abs() <= 1e-6 * after.array().abs()).all();
 }
 
 // All numbers that were fitted, as one vector: free coefficients, then shapes.
@@ -206,14 +206,6 @@ struct Joint {
     std::vector<int> free;
     std::vector<Shape> shapes;
 };
-
-std::string term_name(const Model& model, size_t term) {
-    int number = 1;
-    for (size_t i = 0; i < term; ++i)
-        number += model.effects[i].name == model.effects[term].name;
-    const std::string& name = model.effects[term].name;
-    return number == 1 ? name : name + "#" + std::to_string(number);
-}
 
 // The parameters of a term against the joint vector, by differences: amplitude and phase from two
 // coefficients, for instance.
@@ -274,13 +266,13 @@ void list_parameters(FitResult& out, const Joint& joint, const Matrix& cov) {
         std::vector<double> variance(term.parameters.size(), 0.0);
         if (cov.size()) variance = term_variance(out, t, joint, cov);
         int index = 0;
-        for (const ParameterInfo& p : effect.info().parameters) {
+        for (const ParameterInfo& p : effect.parameters(term)) {
             const auto place = std::distance(term.parameters.begin(), term.parameters.find(p.key));
             FittedParameter one{term_name(out.model, t) + "." + p.key,
                                 p.quantity,
                                 {term.at(p.key), std::sqrt(variance[size_t(place)])},
                                 term.is_fixed(p.key),
-                                index < effect.linear_count() && on_bound(out, int(t), index)};
+                                index < effect.linear_count(term) && on_bound(out, int(t), index)};
             if (one.at_bound) out.at_bound.push_back(one.name);
             out.parameters.push_back(one);
             ++index;
@@ -294,6 +286,10 @@ void add_uncertainty(FitResult& out, const Joint& joint) {
     out.covariance = Matrix::Zero(out.values.size(), out.values.size());
     Matrix cov;
     if (joint.slopes.cols() > 0) {
+        const auto columns = joint.slopes.cols() - Eigen::Index(joint.shapes.size());
+        for (size_t i = 0; i < joint.shapes.size(); ++i)
+            refuse_if_undetermined({out.model, joint.shapes[i].term, joint.shapes[i].key},
+                                   joint.slopes, columns + Eigen::Index(i));
         cov = block_covariance(joint.slopes, out.residual, out.block);
         for (size_t i = 0; i < joint.free.size(); ++i) {
             out.std[joint.free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
@@ -307,11 +303,19 @@ void add_uncertainty(FitResult& out, const Joint& joint) {
 
 } // namespace
 
+std::string term_name(const Model& model, size_t term) {
+    int number = 1;
+    for (size_t i = 0; i < term; ++i)
+        number += model.effects[i].name == model.effects[term].name;
+    const std::string& name = model.effects[term].name;
+    return number == 1 ? name : name + "#" + std::to_string(number);
+}
+
 std::string coefficient_name(const Model& model, const Coefficient& coefficient) {
     if (coefficient.term < 0) return "inertia";
     const EffectTerm& term = model.effects[size_t(coefficient.term)];
     return term_name(model, size_t(coefficient.term)) + "." +
-           find_effect(term.name)->info().parameters[size_t(coefficient.index)].key;
+           find_effect(term.name)->parameters(term)[size_t(coefficient.index)].key;
 }
 
 Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
@@ -368,15 +372,22 @@ FitResult with_inertia_held(const Model& model, const State& s, Assembler& assem
 
 FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options) {
     refuse_one_way(model, assembler.motions());
-    assembler.set_context(model);
-    State s = evaluate(model, assembler);
-    refuse_if_alike(s);
-    bool converged = descend(s, assembler, options);
-    // Laws that change others (a drift of friction) saw the model as it was given: once more.
-    assembler.set_context(s.model);
-    s = evaluate(s.model, assembler);
-    refuse_if_alike(s);
-    converged = descend(s, assembler, options) && converged;
+    // Laws that change others (a drift of friction), or that depend on the torque, see the model as
+    // it was: once more with what came out, and until it settles where the user's laws do.
+    const int most = feeds_back(model) ? kMostContexts : 2;
+    State s;
+    s.model = options.start_values ? without_start_torque(model) : model;
+    bool converged = true;
+    Vector before;
+    for (int pass = 0; pass < most; ++pass) {
+        assembler.set_context(s.model);
+        const bool search = pass == 0 && options.start_values;
+        s = evaluate(search ? with_best_starts(s.model, assembler) : s.model, assembler);
+        refuse_if_alike(s);
+        converged = descend(s, assembler, options) && converged;
+        if (pass > 0 && settled(before, s.linear.values)) break;
+        before = s.linear.values;
+    }
     if (!(s.linear.values[0] > 0)) return with_inertia_held(model, s, assembler, options);
     FitResult out;
     out.model = s.model;

@@ -46,6 +46,9 @@ struct FitOptions {
     bool uncertainty = true;  // else the std are left at 0
     size_t frozen_terms = 0;  // effects at the front of the model whose shapes stay as they are
     size_t believed_terms = SIZE_MAX; // effects at the front whose shapes stay near their values
+    // Shapes of laws that the user wrote are no beliefs: multiples of them are tried, and they go
+    // where they like.
+    bool start_values = true;
 };
 
 // Least squares of everything that is not fixed, with dissipation kept ≥ 0. Standard deviations are
@@ -66,6 +69,9 @@ double linear_error(const Model& model, Assembler& assembler);
 // that reaches its motor.
 Eigen::VectorXd model_torque(const Model& model, const PreparedMotion& motion);
 Eigen::VectorXd delivered_torque(const Model& model, const PreparedMotion& motion);
+
+// "viscous", or "cogging#2" for the second of that name.
+std::string term_name(const Model& model, size_t term);
 
 // "viscous.coefficient" of a linear coefficient ("inertia" for the inertia).
 std::string coefficient_name(const Model& model, const Coefficient& coefficient);

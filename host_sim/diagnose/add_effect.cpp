@@ -68,7 +68,10 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     assembler.set_artifact(fitted.artifact);
     assembler.set_context(fitted.model);
     const MotionView& motion = assembler.views()[data.capture];
-    if (const std::string why = effect.cannot_show(motion); !why.empty())
+    std::string why; // none of the captures shows it
+    for (const MotionView& view : assembler.views())
+        if (why = effect.cannot_show(view); why.empty()) break;
+    if (!why.empty())
         throw Refusal(effect.info().name + " cannot be seen: " + why, "a move that shows it");
     const Search search{motion,      data.time_s,  data.position, data.velocity, data.acceleration,
                         data.torque, data.residual};
@@ -86,7 +89,8 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     const FitOptions quick{.most_iterations = 8,
                            .uncertainty = false,
                            .frozen_terms = base.effects.size(),
-                           .believed_terms = base.effects.size()};
+                           .believed_terms = base.effects.size(),
+                           .start_values = false};
     FitResult best;
     best.torque_error = INFINITY;
     for (const auto& [error, term] : starts) {
@@ -97,8 +101,24 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     const bool useful = best.torque_error < 0.98 * fitted.torque_error;
     FitOptions last;
     last.believed_terms = base.effects.size();
+    last.start_values = false;
     if (!useful) last.frozen_terms = base.effects.size();
     return fit(best.model, assembler, last);
+}
+
+Addition add_term(const Model& model, const EffectTerm& term,
+                  const std::vector<PreparedMotion>& motions) {
+    Assembler assembler(motions);
+    Addition out;
+    // A model that lacks much may not have a fit: its inertia would come out negative.
+    try {
+        out.before = fit(model, assembler);
+    } catch (const Refusal&) {
+        out.before.model = model;
+        out.before.torque_error = NAN;
+    }
+    out.after = fit(with_term(out.before.model, term), assembler);
+    return out;
 }
 
 Addition add_effect(const Model& model, const std::string& name,

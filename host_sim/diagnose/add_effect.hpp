@@ -16,6 +16,11 @@ struct Addition {
 Addition add_effect(const Model& model, const std::string& effect,
                     const std::vector<PreparedMotion>& motions);
 
+// The same for a law that the user wrote, its values being where a search starts. Without it there
+// need not be a fit: the error before is then not a number.
+Addition add_term(const Model& model, const EffectTerm& term,
+                  const std::vector<PreparedMotion>& motions);
+
 // The fit of `fitted` with the effect added, from the best of the effect's own starting points.
 // Throws Refusal where the captures cannot show it.
 FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& assembler);

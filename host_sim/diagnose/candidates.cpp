@@ -57,8 +57,9 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
         else if (must_be_known(p) && !(2 * p.estimate.std < std::abs(p.estimate.value)))
             out = p.name + " is not determined";
     }
-    const std::string why =
-        effect.implausible(c.fit.model.effects.back(), assembler.views().front());
+    std::string why; // one capture that it suits is enough
+    for (const MotionView& view : assembler.views())
+        if (why = effect.implausible(c.fit.model.effects.back(), view); why.empty()) break;
     if (!why.empty()) out = why;
     if (c.fit.torque.norm() < 0.7 * before.torque.norm())
         out = "far less torque than moved the axis";
@@ -71,7 +72,8 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
 // Fills in what a fit says of its last effect.
 void describe(Candidate& c, const Effect& effect, const FitResult& before, Assembler& assembler) {
     c.error_after = c.fit.torque_error;
-    c.validation_error_after = held_out_error(c.fit, assembler);
+    c.blocks_after = held_out_blocks(c.fit, assembler);
+    c.validation_error_after = error_of(c.blocks_after);
     const std::string prefix = effect.info().name;
     c.parameters.clear();
     for (const FittedParameter& p : c.fit.parameters) {
@@ -81,7 +83,8 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before, Assem
         c.parameters.push_back(p);
         c.parameters.back().name = p.name.substr(dot + 1);
     }
-    const size_t own = effect.info().parameters.size(); // the last of several of the same name
+    const size_t own = effect.parameters(c.fit.model.effects.back())
+                           .size(); // the last of several of the same name
     c.parameters.erase(c.parameters.begin(), c.parameters.end() - long(own));
     c.note = fault_of(c, effect, before, assembler);
     c.sound = c.note.empty();
@@ -127,7 +130,8 @@ std::vector<Candidate> try_all(const FitResult& before, const std::vector<Prepar
                                const Progress& progress) {
     std::vector<const Effect*> effects;
     for (const Effect* effect : catalogue())
-        if (cannot_add(*effect, before.model).empty()) effects.push_back(effect);
+        if (!effect->info().written && cannot_add(*effect, before.model).empty())
+            effects.push_back(effect);
     std::vector<Candidate> out(effects.size());
     share_out(effects.size(), motions, [&](size_t i, Assembler& assembler, bool reports) {
         if (reports && progress)

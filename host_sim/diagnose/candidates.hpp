@@ -20,6 +20,7 @@ struct Candidate {
     std::string note; // why it was not fitted, a parameter on its bound, an alias
     FitResult fit;    // empty model name where it was not fitted
     bool fitted = false;
+    std::vector<double> blocks_after; // held_out_blocks of the fit
     double noise_gain = NAN; // fall of ln(error) that noise alone would cause; NaN: not asked
     bool sound = false;      // fitted, every parameter determined and off its bounds
 };

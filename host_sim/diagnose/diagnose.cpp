@@ -13,9 +13,11 @@ namespace servoid {
 
 namespace {
 
-constexpr double kSure = 0.9;           // probability from which one candidate stands alone
-constexpr double kLeastGain = 0.03;     // of the residual's power: less is not worth a name
-constexpr double kNearFloor = 1.15;     // times the floor: the residual is noise
+constexpr double kSure = 0.9;       // probability from which one candidate stands alone
+constexpr double kLeastGain = 0.03; // of the residual's power: less is not worth a name
+constexpr double kNearFloor = 1.15; // times the floor: the residual is noise
+constexpr double kColoured = 0.02;  // of the torque: an error that is not white is no noise
+constexpr double kWhite = 0.15;     // of the points are independent; half of them where it is white
 constexpr double kWorthFinishing = 0.3; // probability
 constexpr double kAsGood = 0.7; // of what a free function explains: then a named law is as good
 
@@ -47,7 +49,10 @@ Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
     const bool repeats =
         d.floor_from_repetition && d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
     d.probes = std::move(left.probes);
-    return left.evident || repeats ? Verdict::unknown : Verdict::adequate;
+    const bool coloured =
+        d.error_before > std::max(3 * d.noise_floor, kColoured) &&
+        effective_count(d.before.residual) < kWhite * double(d.before.residual.size());
+    return left.evident || repeats || coloured ? Verdict::unknown : Verdict::adequate;
 }
 
 Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
@@ -97,7 +102,8 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     Diagnosis d;
     d.before = without_artifact(fit(model, assembler), assembler, 2);
     d.error_before = d.before.torque_error;
-    d.validation_error_before = held_out_error(d.before, assembler);
+    d.blocks_before = held_out_blocks(d.before, assembler);
+    d.validation_error_before = error_of(d.blocks_before);
     const NoiseFloor floor = noise_floor_of_all(d.before.model, motions);
     d.noise_floor = floor.ratio, d.floor_from_repetition = floor.from_repetition;
     for (const PreparedMotion& m : motions)

@@ -29,6 +29,7 @@ struct Diagnosis {
     Verdict verdict = Verdict::insufficient;
     FitResult before; // the model as it is, every parameter fitted again
     double error_before = 0, validation_error_before = 0;
+    std::vector<double> blocks_before; // held_out_blocks of `before`
     double noise_floor = 0;
     bool floor_from_repetition = false;
     std::vector<Candidate> candidates;  // best first, every effect that was tried

@@ -47,10 +47,28 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
     return out;
 }
 
-double held_out_error(const FitResult& fit, Assembler& assembler) {
-    const std::vector<double> power =
+std::vector<double> held_out_blocks(const FitResult& fit, Assembler& assembler) {
+    std::vector<double> power =
         held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());
-    return std::sqrt(std::accumulate(power.begin(), power.end(), 0.0) / fit.torque.squaredNorm());
+    for (double& p : power)
+        p /= fit.torque.squaredNorm();
+    return power;
+}
+
+double error_of(const std::vector<double>& blocks) {
+    return std::sqrt(std::accumulate(blocks.begin(), blocks.end(), 0.0));
+}
+
+double held_out_error(const FitResult& fit, Assembler& assembler) {
+    return error_of(held_out_blocks(fit, assembler));
+}
+
+double gain_z(const std::vector<double>& before, const std::vector<double>& after) {
+    double gain = 0, square = 0;
+    for (size_t i = 0; i < before.size(); ++i)
+        gain += before[i] - after[i], square += std::pow(before[i] - after[i], 2);
+    const double spread = std::sqrt(std::max(0.0, square - gain * gain / double(before.size())));
+    return spread > 0 ? gain / spread : 0;
 }
 
 double effective_count(const Vector& residual) {

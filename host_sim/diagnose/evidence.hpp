@@ -15,8 +15,14 @@ namespace servoid {
 std::vector<double> held_out_power(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residual,
                                    const std::vector<int>& block, double ridge = 1e-9);
 
+// Squared error of each block as a share of ‖T‖², predicted by the fit to all others.
+std::vector<double> held_out_blocks(const FitResult& fit, Assembler& assembler);
 // ‖T − T̂‖/‖T‖ with each block predicted by the fit to all others.
 double held_out_error(const FitResult& fit, Assembler& assembler);
+double error_of(const std::vector<double>& blocks);
+
+// By how many of its standard errors, from block to block, the sum of `before` exceeds `after`.
+double gain_z(const std::vector<double>& before, const std::vector<double>& after);
 
 // How many independent numbers a residual holds, from the flatness of its spectrum: N for white
 // noise up to the Nyquist frequency, few for a residual that repeats or drifts.

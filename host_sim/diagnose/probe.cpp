@@ -102,15 +102,10 @@ std::vector<Probe> probe_residual(const FitResult& fit, Assembler& assembler) {
         Matrix slopes(base.rows(), base.cols() + b.columns.cols());
         slopes << base, b.columns;
         const std::vector<double> after = held_out_power(slopes, fit.residual, assembler.blocks());
-        double gain = 0, square = 0;
-        for (size_t i = 0; i < after.size(); ++i)
-            gain += before[i] - after[i], square += std::pow(before[i] - after[i], 2);
-        const double n = double(after.size());
-        const double spread = std::sqrt(std::max(0.0, square - gain * gain / n));
         Probe probe;
         probe.name = b.name;
-        probe.explained = gain / total;
-        probe.z = spread > 0 ? gain / spread : 0;
+        probe.explained = 1 - std::accumulate(after.begin(), after.end(), 0.0) / total;
+        probe.z = gain_z(before, after);
         out.push_back(probe);
     }
     std::sort(out.begin(), out.end(),

@@ -59,7 +59,8 @@ std::optional<FitResult> searched(const Model& model, Assembler& assembler) {
     Model base = model;
     const Effect* effect = find_effect(base.effects.back().name);
     base.effects.pop_back();
-    if (effect->shape_keys().empty()) return std::nullopt; // nothing to search for
+    if (effect->shape_keys(model.effects.back()).empty())
+        return std::nullopt; // nothing to search for
     try {
         return fit_with(fit(base, assembler), *effect, assembler);
     } catch (const Refusal&) {

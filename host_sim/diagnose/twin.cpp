@@ -100,6 +100,7 @@ std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assemble
     assembler.set_artifact(share * artifact);
     FitOptions options;
     options.believed_terms = fitted.believed_terms;
+    options.start_values = false;
     try {
         return fit(fitted.model, assembler, options);
     } catch (const Refusal&) {

@@ -85,7 +85,7 @@ std::vector<Change> changes_of(const Model& believed, const FitResult& fitted,
     take(out, fitted.parameters.front(), believed.inertia);
     size_t next = 1;
     for (const EffectTerm& term : believed.effects)
-        for (const ParameterInfo& p : find_effect(term.name)->info().parameters)
+        for (const ParameterInfo& p : find_effect(term.name)->parameters(term))
             take(out, fitted.parameters[next++], term.at(p.key));
     std::map<std::string, double> share = shares_of(fitted, assembler);
     std::erase_if(out, [&](const Change& c) {

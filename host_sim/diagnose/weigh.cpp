@@ -7,14 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace servoid {
 
 namespace {
 
-constexpr double kBeyondNoise = 0.6;  // a gain that fed-back noise has not been seen to make
-constexpr double kFollows = 0.4;      // of a linear dynamics' gain must follow the reference
-constexpr double kAsked = 0.02;       // probability from which a gain is compared with noise's
+constexpr double kBeyondNoise = 0.6;       // a gain that fed-back noise has not been seen to make
+constexpr double kBeyondNoiseUntold = 0.8; // where no reference was recorded
+constexpr double kFollows = 0.4;           // of a linear dynamics' gain must follow the reference
+constexpr double kAsked = 0.02;            // probability from which a gain is compared with noise's
+constexpr double kPerBound = 4;            // price, as a logarithm
+constexpr double kOddOrder = 2;
+constexpr double kTiedToMotion = 30;  // an alias: only another speed tells
 constexpr double kBeyondDoubt = 0.35; // error after over before: no noise does that
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
@@ -45,29 +50,101 @@ bool is_linear_dynamics(const std::string& effect) {
     return effect == "dead_time" || effect == "torque_lag" || effect == "elastic_load";
 }
 
-// Rejects dynamics whose gain does not follow the reference.
+// Noise of a loop does not repeat: what is removed beyond it is no noise.
+bool repeats(const Diagnosis& d, const Candidate& c) {
+    const double removed = d.error_before * d.error_before - c.error_after * c.error_after;
+    return d.floor_from_repetition && removed > d.noise_floor * d.noise_floor;
+}
+
+bool has_reference(const std::vector<PreparedMotion>& motions) {
+    return std::none_of(motions.begin(), motions.end(), [](const PreparedMotion& m) {
+        return m.capture->position_ref.empty() || !m.capture->uniform;
+    });
+}
+
+// Rejects dynamics whose gain does not follow the reference, or for which nothing tells.
 void reject_loop_noise(Diagnosis& d, Assembler& assembler) {
-    const auto gains = [&](const Candidate& c) {
-        return c.sound && is_linear_dynamics(c.effect) && c.error_after < d.error_before;
+    const bool told = has_reference(assembler.motions());
+    const auto doubtful = [&](const Candidate& c) {
+        if (!c.sound || !is_linear_dynamics(c.effect) || repeats(d, c)) return false;
+        const double gain = 1 - std::pow(c.error_after / d.error_before, 2);
+        return gain <= (told ? kBeyondNoise : kBeyondNoiseUntold);
     };
-    if (std::none_of(d.candidates.begin(), d.candidates.end(), gains)) return;
+    if (std::none_of(d.candidates.begin(), d.candidates.end(), doubtful)) return;
     const std::optional<double> share =
         coherent_share(d.before.residual, assembler.motions(), assembler.blocks());
-    if (!share) return;
     for (Candidate& c : d.candidates) {
         const double gain = 1 - std::pow(c.error_after / d.error_before, 2);
-        if (!gains(c) || gain > kBeyondNoise || *share >= kFollows * gain) continue;
+        if (!doubtful(c) || (share && *share >= kFollows * gain)) continue;
         c.sound = false;
-        c.note = "noise that the loop feeds round: it does not follow the reference";
+        c.note = share ? "noise that the loop feeds round: it does not follow the reference"
+                       : "as well noise that the loop feeds round: record the reference";
     }
 }
 
-void set_probabilities(Diagnosis& d) {
+// Parameters that the candidate drives onto their bound: a friction that would come out negative is
+// a sign that something else is missing.
+double newly_bound(const FitResult& before, const FitResult& after) {
+    const double more = double(after.at_bound.size()) - double(before.at_bound.size());
+    return std::max(0.0, more);
+}
+
+// By how many of its standard deviations the effect is there at all: its first parameter is its
+// size.
+double size_z(const Candidate& c) {
+    if (c.parameters.empty()) return 0;
+    const Estimate& size = c.parameters.front().estimate;
+    return size.std > 0 ? std::abs(size.value) / size.std : 0;
+}
+
+// On one-way motion at one speed, a line of time at a whole order of the turning is the turning's.
+double time_evidence(const Candidate& c, const std::vector<PreparedMotion>& motions) {
+    if (c.effect != "periodic_disturbance" || motions.size() != 1) return 0;
+    const MotionView& m = motions.front().motion;
+    if (m.kind != Motion::rotary || m.position.size() == 0) return 0;
+    const double travelled = std::abs(m.position[m.size() - 1] - m.position[0]);
+    if (travelled < 0.95 * m.travel()) return 0;
+    const double mean_Hz =
+        travelled / (m.sample_time_s * double(m.size() - 1)) / (2 * std::numbers::pi);
+    for (const FittedParameter& p : c.parameters) {
+        if (p.name != "frequency") continue;
+        const double order = p.estimate.value / mean_Hz;
+        const double within = std::max(0.1, 3 * p.estimate.std / mean_Hz);
+        return std::abs(order - std::round(order)) < within ? -kTiedToMotion : 0;
+    }
+    return 0;
+}
+
+// How many independent residuals the evidence counts. The spectrum of the best residual gives few
+// where something else is still in it; a gain that comes back block after block counts for more.
+double independent_count(const Diagnosis& d, const Candidate& best) {
+    const double fall = std::log(d.validation_error_before / best.validation_error_after);
+    const double z = std::max(gain_z(d.blocks_before, best.blocks_after), size_z(best));
+    const double from_blocks = fall > 0 && z > 0 ? z * z / 2 / fall : 0;
+    return std::min(kMostCount, std::max(effective_count(best.fit.residual), from_blocks));
+}
+
+// What the machine itself turns once in a whole number of times per revolution comes at whole
+// orders; a line that is found anywhere else is a little less likely to be its doing.
+double order_evidence(const Candidate& c, Motion motion) {
+    if (motion != Motion::rotary || (c.effect != "cogging" && c.effect != "torque_ripple"))
+        return 0;
+    for (const FittedParameter& p : c.parameters) {
+        if (p.name != "order") continue;
+        const double within = std::max(2 * p.estimate.std, 0.02);
+        const double off = std::abs(p.estimate.value - std::round(p.estimate.value));
+        if (p.estimate.value < 1.5) return 0; // gravity's
+        return off < within ? -std::log(std::min(1.0, 2 * within)) : -kOddOrder;
+    }
+    return 0;
+}
+
+void set_probabilities(Diagnosis& d, const std::vector<PreparedMotion>& motions) {
     const Candidate* best = nullptr;
     for (const Candidate& c : d.candidates)
         if (c.sound && (!best || c.error_after < best->error_after)) best = &c;
     if (!best) return;
-    const double count = std::min(kMostCount, effective_count(best->fit.residual));
+    const double count = independent_count(d, *best);
     const double floor = 0.3 * d.noise_floor; // an error below the noise is luck, not evidence
     double none = log_evidence(d.before, std::max(floor, d.error_before), count, 0);
     double top = none;
@@ -76,8 +153,10 @@ void set_probabilities(Diagnosis& d) {
         double v = -INFINITY;
         if (c.sound)
             v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count,
-                             find_effect(c.effect)->search_price()) -
-                (c.noise_gain > 0 ? count * c.noise_gain : 0);
+                             find_effect(c.effect)->search_price() +
+                                 kPerBound * newly_bound(d.before, c.fit)) -
+                (c.noise_gain > 0 ? count * c.noise_gain : 0) +
+                order_evidence(c, d.before.model.motion) + time_evidence(c, motions);
         value.push_back(v);
     }
     prefer_simple_names(d, value);
@@ -107,16 +186,16 @@ Candidate* doubtful(Diagnosis& d) {
 } // namespace
 
 void weigh(Diagnosis& d, Assembler& assembler) {
-    set_probabilities(d);
+    set_probabilities(d, assembler.motions());
     while (Candidate* c = doubtful(d)) {
         const auto gain = gain_from_noise(d.before, *find_effect(c->effect), assembler);
         if (!gain) {
             reject_loop_noise(d, assembler);
-            set_probabilities(d);
+            set_probabilities(d, assembler.motions());
             return;
         }
         c->noise_gain = *gain;
-        set_probabilities(d);
+        set_probabilities(d, assembler.motions());
     }
 }
 

@@ -1,5 +1,6 @@
 // Backlash: a gap between motor and load.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <algorithm>
@@ -48,7 +49,12 @@ class Backlash : public Effect {
                            {"load_share", Quantity::ratio, 0, 0.999,
                             "share of the inertia behind the gap"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::time,
+                        .move = "sine:frequency_Hz=4,amplitude=1,periods=2",
+                        .parameters = {{"gap", 0.05}, {"load_share", 0.5}},
+                        .beside = {},
+                        .band_Hz = 300}};
         return info;
     }
 
@@ -56,7 +62,7 @@ class Backlash : public Effect {
         axis.backlash = Gap{term.at("gap"), term.at("load_share")};
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -81,10 +87,11 @@ class Backlash : public Effect {
         return term.at("gap") > 0.9 * motion.travel() ? "the gap is as wide as the travel" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"gap", "load_share"}; }
-    double slope_step() const override {
-        return 0.05;
-    } // the load is caught a sample earlier or not
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"gap", "load_share"};
+    }
+    // The load is caught a sample earlier or not.
+    double slope_step() const override { return 0.05; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.3, 0.15, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001})
@@ -98,6 +105,16 @@ class Backlash : public Effect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.position.size() ? "" : "the position was not recorded";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double share = draw.uniform(0.3, 0.85), travel = draw.scenery().travel();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"gap", s}, {"load_share", share}});
+                    },
+                .start = 0.02 * travel,
+                .most = 0.3 * travel};
     }
 };
 

@@ -29,7 +29,8 @@ namespace servoid {
     X(variable_inertia)                                                                            \
     X(encoder_eccentricity)                                                                        \
     X(periodic_disturbance)                                                                        \
-    X(friction_drift)
+    X(friction_drift)                                                                              \
+    X(custom)
 
 #define SERVOID_DECLARE(name) const Effect& name##_effect();
 #define SERVOID_LIST(name) &name##_effect(),
@@ -42,6 +43,7 @@ const std::vector<const Effect*>& catalogue() {
 }
 
 const Effect* find_effect(const std::string& name) {
+    if (name.starts_with("custom.")) return &custom_effect();
     for (const Effect* effect : catalogue())
         if (effect->info().name == name) return effect;
     return nullptr;

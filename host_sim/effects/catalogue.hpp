@@ -7,7 +7,7 @@ namespace servoid {
 
 const std::vector<const Effect*>& catalogue();
 
-// nullptr where there is no such effect.
+// nullptr where there is no such effect. custom.<name> is `custom`, whatever the name.
 const Effect* find_effect(const std::string& name);
 
 // Why this effect cannot stand in this model ("needs coulomb", "replaces viscous", "rotary axes

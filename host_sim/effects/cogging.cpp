@@ -1,4 +1,5 @@
 // Cogging: a torque that the magnets or the screw repeat over the way.
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -23,7 +24,10 @@ class Cogging : public OrderEffect {
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
-            .repeatable = true};
+            .repeatable = true,
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:velocity=40,acceleration=1500,cycles=3",
+                        .parameters = {{"amplitude", 5e-3}, {"order", 6.0}, {"phase", 0.0}}}};
         return info;
     }
 
@@ -45,6 +49,16 @@ class Cogging : public OrderEffect {
 
     OrderScan scan(const Search& search) const override {
         return {search, Eigen::VectorXcd::Ones(search.position.size()), {}};
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double order = draw.order(), phase = draw.phase();
+        if (order < 2) return {}; // once per revolution is gravity
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"amplitude", s}, {"order", order}, {"phase", phase}});
+                    },
+                .start = draw.torque()};
     }
 };
 

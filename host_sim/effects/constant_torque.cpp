@@ -1,5 +1,6 @@
 // Constant torque: gravity on a vertical axis, an offset of the current sensor.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <limits>
@@ -18,7 +19,10 @@ class ConstantTorque : public Effect {
             .parameters = {{"torque", Quantity::torque, -inf, inf,
                             "positive where the motor must push forward to stand still"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"torque", 5e-3}}}};
         return info;
     }
 
@@ -26,9 +30,18 @@ class ConstantTorque : public Effect {
         axis.constant_torque += term.at("torque");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::VectorXd::Ones(motion.size());
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double sign = draw.sign();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"torque", sign * s}});
+                    },
+                .start = draw.torque()};
     }
 };
 

@@ -1,6 +1,7 @@
 // Coulomb friction: a torque of constant size against the motion, and sticking at rest.
 #include "effects/direction.hpp"
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <limits>
@@ -18,7 +19,11 @@ class Coulomb : public Effect {
             .parameters = {{"torque", Quantity::torque, 0, std::numeric_limits<double>::infinity(),
                             "sliding friction, both directions"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"torque", 6e-3}},
+                        .beside = {"viscous"}}};
         return info;
     }
 
@@ -27,9 +32,13 @@ class Coulomb : public Effect {
         axis.coulomb_reverse += term.at("torque");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return direction(motion);
+    }
+
+    Hiding hide(Draw& draw) const override {
+        return {.at = [this](double s) { return with({{"torque", s}}); }, .start = draw.torque()};
     }
 };
 

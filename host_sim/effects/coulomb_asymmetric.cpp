@@ -9,6 +9,7 @@
 namespace servoid {
 namespace {
 
+// Never hidden: Coulomb friction and a constant torque explain it on any motion.
 class CoulombAsymmetric : public Effect {
     const EffectInfo& info() const override {
         constexpr double inf = std::numeric_limits<double>::infinity();
@@ -22,7 +23,11 @@ class CoulombAsymmetric : public Effect {
                            {"torque_reverse", Quantity::torque, 0, inf,
                             "sliding friction while v < 0"}},
             .replaces = {"coulomb"},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"torque_forward", 8e-3}, {"torque_reverse", 4e-3}},
+                        .beside = {"viscous"}}};
         return info;
     }
 
@@ -31,7 +36,7 @@ class CoulombAsymmetric : public Effect {
         axis.coulomb_reverse += term.at("torque_reverse");
     }
 
-    int linear_count() const override { return 2; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         const Eigen::VectorXd sign = direction(motion);
         Eigen::MatrixXd columns(motion.size(), 2);

@@ -1,5 +1,6 @@
 // Dead time: the torque comes later than it was asked for.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,11 @@ class DeadTime : public Effect {
             .reference = "Andoh 2008, section III-F",
             .parameters = {{"delay", Quantity::time, 0, 1, "from asked to delivered"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::quadrature,
+                        .move = "multisine:from_Hz=3,to_Hz=90,step_Hz=3,amplitude=0.3,periods=8",
+                        .parameters = {{"delay", 1e-3}},
+                        .beside = {}}};
         return info;
     }
 
@@ -28,7 +33,7 @@ class DeadTime : public Effect {
         axis.drive.dead_time_s += term.at("delay");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -38,7 +43,12 @@ class DeadTime : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"delay"}; }
+    // A slow one smooths the noise of the torque instead, and looks better for it.
+    std::string implausible(const EffectTerm& term, const MotionView&) const override {
+        return term.at("delay") > 0.05 ? "no drive answers that late" : "";
+    }
+
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"delay"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.2, 0.08, 0.02}) {
@@ -47,6 +57,17 @@ class DeadTime : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double band = draw.scenery().band_Hz;
+        return {.at =
+                    [this](double s) {
+                        return with({{"delay", s}});
+                    },
+                .start = 0.05 / band,
+                .least = 20e-6,
+                .most = 0.4 / band};
     }
 };
 

@@ -10,12 +10,16 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace servoid {
 
 struct AxisDescription; // host_sim/plant/axis.hpp: what the simulator integrates
+class Draw;             // effects/hiding.hpp: parameters drawn at random that suit a motion
+struct Hiding;
 
 // The physical quantity of a parameter; its unit follows from the axis being rotary or linear.
 enum class Quantity {
@@ -31,7 +35,8 @@ enum class Quantity {
     time,
     stiffness,
     quadratic_drag,
-    acceleration
+    acceleration,
+    none // the user's own: no unit is known
 };
 // ampere: the torque is known as a current only.
 std::string unit_of(Quantity quantity, Motion motion, bool ampere = false);
@@ -41,6 +46,28 @@ struct ParameterInfo {
     Quantity quantity;
     double lower, upper; // inclusive; infinities where physics sets no bound
     std::string meaning;
+};
+
+// What a residual is drawn against.
+enum class Against {
+    velocity,
+    position,
+    time,
+    torque,
+    torque_rate,
+    in_phase,  // frequency: the part of the residual in phase with the torque
+    quadrature // frequency: the part a quarter of a turn behind it
+};
+
+// The residual that shows an effect best: of a small motor (report/signature.cpp) that has the
+// effect and the friction beside it, less a model that knows only that friction.
+struct Picture {
+    Against against = Against::velocity;
+    std::string move; // experiment, see plant/experiment.hpp
+    std::map<std::string, double> parameters;
+    std::vector<std::string> beside = {"viscous", "coulomb"};
+    double band_Hz = 150;
+    bool refitted = false; // the model's numbers first: for an effect that hides in them
 };
 
 struct EffectInfo {
@@ -53,6 +80,11 @@ struct EffectInfo {
     std::vector<std::string> needs;    // effects without which this one has no meaning
     bool rotary_only = false;
     bool repeatable = false; // may be an array of tables
+    // The user writes its law: never a candidate by itself, and its shapes are start values, not
+    // beliefs.
+    bool written = false;
+    std::string example = {}; // of a model file, where the law is written there
+    Picture picture = {};
 };
 
 // A measured motion at the sample rate, before the band limit: the arguments of every law.
@@ -69,7 +101,9 @@ struct MotionView {
     Eigen::VectorXd friction;  // torque of all friction of the model
     bool has_constant = false; // the model has a constant torque: no other effect needs its own
     Eigen::Index size() const { return velocity.size(); }
-    double top_speed() const { return velocity.cwiseAbs().maxCoeff(); }
+    bool torque_measured = false; // the torque that acts on the axis, not the one asked for
+    double fastest = 0;           // of all captures that are fitted together; 0: of this one
+    double top_speed() const { return std::max(fastest, velocity.cwiseAbs().maxCoeff()); }
     double travel() const {
         return position.size() ? position.maxCoeff() - position.minCoeff() : 0;
     }
@@ -101,6 +135,10 @@ class Effect {
   public:
     virtual ~Effect() = default;
     virtual const EffectInfo& info() const = 0;
+    // The parameters of a term: info()'s, but where the term brings its own.
+    virtual std::vector<ParameterInfo> parameters(const EffectTerm&) const {
+        return info().parameters;
+    }
 
     // Writes this effect into the axis that the simulator integrates.
     virtual void add_to(AxisDescription& axis, const EffectTerm& term) const = 0;
@@ -108,10 +146,10 @@ class Effect {
     // How many coefficients enter the torque linearly, and one column of torque per coefficient
     // (rows: motion.size()). The torque the motor must give on top of J·a is columns ·
     // linear(term).
-    virtual int linear_count() const = 0;
+    virtual int linear_count(const EffectTerm& term) const = 0;
     virtual Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const = 0;
 
-    // Coefficients <-> parameters, where they are not simply the first parameters of info().
+    // Coefficients <-> parameters, where they are not simply the first of parameters().
     virtual Eigen::VectorXd linear(const EffectTerm& term) const;
     virtual void set_linear(EffectTerm& term, const Eigen::VectorXd& coefficients) const;
     // Coefficients that go without saying where their column is zero (the offset of a spring beside
@@ -119,6 +157,8 @@ class Effect {
     virtual bool may_vanish(int) const { return false; }
     // The least a coefficient may be: the bound of its parameter; −∞ where it is one of a pair.
     virtual double linear_lower(int index) const;
+    // Whether no fit changes a coefficient: its parameter is fixed, or it has none.
+    virtual bool linear_fixed(const EffectTerm& term, int index) const;
 
     // Changes the torque that accelerates the inertia (an elastic load, a gap): on entry J = 1
     // times the acceleration, on return the torque for J = 1.
@@ -130,29 +170,37 @@ class Effect {
     virtual bool delivers() const { return false; }
 
     // Whether the columns depend on the torque.
-    virtual bool uses_torque() const { return false; }
+    virtual bool uses_torque(const EffectTerm&) const { return false; }
     // Whether the columns depend on what the rest of the model says (MotionView's last members).
-    virtual bool depends_on_model() const { return uses_torque(); }
+    virtual bool depends_on_model(const EffectTerm& term) const { return uses_torque(term); }
 
     // Parameters that do not enter linearly, and where a search for them starts (every other
     // parameter of the terms is filled in too). Empty starts: this motion cannot show the effect.
-    virtual std::vector<std::string> shape_keys() const { return {}; }
+    virtual std::vector<std::string> shape_keys(const EffectTerm&) const { return {}; }
     virtual std::vector<EffectTerm> starts(const Search& search) const;
 
     // Relative step that shows how the columns move with a shape: larger where they move in jumps.
     virtual double slope_step() const { return 1e-4; }
 
     // The price of a search, as the logarithm of how many independent places it looked at.
-    virtual double search_price() const { return 1.5 * double(shape_keys().size()); }
+    virtual double search_price() const { return 1.5 * double(shape_keys(blank()).size()); }
     // Why this motion cannot show the effect, in words ("less than one and a half turns"), or "".
     virtual std::string cannot_show(const MotionView&) const { return ""; }
+
+    // Where the law of a term has no finite value on this motion, in words, or "".
+    virtual std::string undefined(const EffectTerm&, const MotionView&) const { return ""; }
 
     // Why a fitted term is another thing than this effect on this motion ("it only bends the
     // viscous line"), or "".
     virtual std::string implausible(const EffectTerm&, const MotionView&) const { return ""; }
 
+    // How to hide this effect in a drive whose motion without it is known; by default it is never
+    // hidden (an alias of others, or nothing that one experiment could show).
+    virtual Hiding hide(Draw&) const;
+
   protected:
     EffectTerm blank() const; // name, every parameter at 0 or its nearest bound
+    EffectTerm with(std::map<std::string, double> parameters) const;
 };
 
 } // namespace servoid

@@ -1,5 +1,6 @@
 // Elastic load: eq. (7), an antiresonance and a resonance between motor torque and motor motion.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -79,7 +80,15 @@ class ElasticLoadEffect : public Effect {
                            {"resonance_damping", Quantity::ratio, 0, 0.999,
                             "damping ratio of the resonance"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::in_phase,
+                        .move = "multisine:from_Hz=4,to_Hz=140,step_Hz=4,amplitude=0.3,periods=8",
+                        .parameters = {{"antiresonance_frequency", 70.0},
+                                       {"resonance_frequency", 100.0},
+                                       {"antiresonance_damping", 0.15},
+                                       {"resonance_damping", 0.15}},
+                        .beside = {},
+                        .band_Hz = 250}};
         return info;
     }
 
@@ -87,7 +96,7 @@ class ElasticLoadEffect : public Effect {
         axis.elastic = load_of(term);
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -110,7 +119,7 @@ class ElasticLoadEffect : public Effect {
                    : "";
     }
 
-    std::vector<std::string> shape_keys() const override {
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
         return {"antiresonance_frequency", "resonance_frequency", "antiresonance_damping",
                 "resonance_damping"};
     }
@@ -126,6 +135,23 @@ class ElasticLoadEffect : public Effect {
                 out.push_back(term);
             }
         return out;
+    }
+
+    // Two masses with a spring: the damping of both modes follows from one. Strength: how low the
+    // frequencies lie.
+    Hiding hide(Draw& draw) const override {
+        const double ratio = draw.uniform(1.15, 2.2), damping = draw.log_uniform(0.01, 0.08);
+        const double band = draw.scenery().band_Hz;
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"antiresonance_frequency", band / s},
+                                     {"resonance_frequency", band * ratio / s},
+                                     {"antiresonance_damping", damping},
+                                     {"resonance_damping", damping * ratio}});
+                    },
+                .start = draw.uniform(0.4, 1),
+                .least = 0.1,
+                .most = 2};
     }
 };
 

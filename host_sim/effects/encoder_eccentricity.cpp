@@ -1,4 +1,5 @@
 // Encoder eccentricity: the disc sits off its axis and the angle reads wrong once per turn.
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -22,7 +23,10 @@ class EncoderEccentricity : public WaveEffect {
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
-            .rotary_only = true};
+            .rotary_only = true,
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:stroke=12.57,velocity=60,acceleration=1000,cycles=3",
+                        .parameters = {{"amplitude", 0.05}, {"phase", 0.0}}}};
         return info;
     }
 
@@ -31,7 +35,7 @@ class EncoderEccentricity : public WaveEffect {
         axis.sensor_error = [=](double position) { return e * std::sin(position + phase); };
     }
 
-    bool depends_on_model() const override { return true; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
     // The true angle is θ − e sin(θ+φ), so v is less by e cos(θ+φ) v and a by
     // e (cos(θ+φ) a − sin(θ+φ) v²): to first order in e.
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
@@ -46,6 +50,16 @@ class EncoderEccentricity : public WaveEffect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.travel() > 1.5 ? "" : "the move is less than a quarter of a turn";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double phase = draw.phase();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"amplitude", s}, {"phase", phase}});
+                    },
+                .start = 0.01,
+                .most = 0.1};
     }
 };
 

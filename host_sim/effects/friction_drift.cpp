@@ -1,5 +1,6 @@
 // Friction drift: grease that warms up, and friction with it.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -21,7 +22,10 @@ class FrictionDrift : public Effect {
                             "change of all friction in the long run"},
                            {"time_constant", Quantity::time, 1e-6, kInf, "of the change"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::time,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=6",
+                        .parameters = {{"fraction", 0.8}, {"time_constant", 0.5}}}};
         return info;
     }
 
@@ -30,15 +34,17 @@ class FrictionDrift : public Effect {
         axis.friction_factor = [=](double t) { return 1 + d * -std::expm1(-t / tau); };
     }
 
-    bool depends_on_model() const override { return true; }
-    int linear_count() const override { return 1; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double tau = term.at("time_constant");
         if (motion.friction.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
         return motion.friction.array() * (1 - (-motion.time_s.array() / tau).exp());
     }
 
-    std::vector<std::string> shape_keys() const override { return {"time_constant"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"time_constant"};
+    }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double length = search.time_s[search.time_s.size() - 1];
@@ -53,6 +59,17 @@ class FrictionDrift : public Effect {
         return motion.friction.size() && motion.friction.squaredNorm() > 0
                    ? ""
                    : "the model has no friction that could drift";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double tau = draw.scenery().duration_s * draw.log_uniform(0.1, 0.7);
+        const double sign = draw.sign();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"fraction", sign * s}, {"time_constant", tau}});
+                    },
+                .start = 0.3,
+                .most = sign > 0 ? 1.5 : 0.8};
     }
 };
 

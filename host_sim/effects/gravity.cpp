@@ -1,4 +1,5 @@
 // Gravity on an arm: a torque that goes round with the angle.
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -22,7 +23,10 @@ class Gravity : public WaveEffect {
                             "angle of the arm at position zero"}},
             .replaces = {},
             .needs = {},
-            .rotary_only = true};
+            .rotary_only = true,
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:stroke=12.57,velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"torque", 8e-3}, {"phase", 0.0}}}};
         return info;
     }
 
@@ -45,6 +49,15 @@ class Gravity : public WaveEffect {
     std::string cannot_show(const MotionView& motion) const override {
         if (motion.position.size() == 0) return "the position was not recorded";
         return motion.travel() > 0.3 ? "" : "the move is too short to tell an arc from a line";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double phase = draw.phase();
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"torque", s}, {"phase", phase}});
+                    },
+                .start = draw.torque()};
     }
 };
 

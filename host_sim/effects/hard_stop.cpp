@@ -1,5 +1,6 @@
 // Hard stop: a stiff end of the travel on either side.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -25,7 +26,10 @@ class HardStop : public Effect {
                             "where the stop begins, both sides of zero"},
                            {"stiffness", Quantity::stiffness, 0, kInf, "torque per way beyond it"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "sine:frequency_Hz=3,amplitude=3,periods=4",
+                        .parameters = {{"position", 2.0}, {"stiffness", 0.02}}}};
         return info;
     }
 
@@ -34,7 +38,7 @@ class HardStop : public Effect {
         axis.opposing.push_back([=](const AxisPoint& p) { return k * beyond(p.position, stop); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double stop = term.at("position");
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
@@ -54,7 +58,7 @@ class HardStop : public Effect {
         return stop > 0.995 * reach || stop < 0.3 * reach ? "no stop within the travel" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"position"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"position"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         if (search.position.size() == 0) return out;
@@ -65,6 +69,16 @@ class HardStop : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double reach = draw.scenery().reach();
+        const double stop = reach * draw.uniform(0.6, 0.95);
+        return {.at =
+                    [=, this](double k) {
+                        return with({{"position", stop}, {"stiffness", k}});
+                    },
+                .start = draw.torque() / (0.1 * reach)};
     }
 };
 

@@ -1,6 +1,7 @@
 // Load-dependent friction: what a screw or worm loses grows with the torque through it.
 #include "effects/direction.hpp"
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -21,7 +22,11 @@ class LoadFriction : public Effect {
             .parameters = {{"coefficient", Quantity::ratio, 0, 0.6,
                             "friction per delivered torque"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque,
+                        .move = "sine:frequency_Hz=4,amplitude=3,periods=4",
+                        .parameters = {{"coefficient", 0.3}},
+                        .beside = {}}};
         return info;
     }
 
@@ -29,13 +34,22 @@ class LoadFriction : public Effect {
         axis.load_friction += term.at("coefficient");
     }
 
-    bool uses_torque() const override { return true; }
-    int linear_count() const override { return 1; }
+    bool uses_torque(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return direction(motion).cwiseProduct(motion.torque.cwiseAbs());
     }
     std::string implausible(const EffectTerm& term, const MotionView&) const override {
         return term.at("coefficient") > 0.6 ? "more than the transmission could lose" : "";
+    }
+
+    Hiding hide(Draw&) const override {
+        return {.at =
+                    [this](double s) {
+                        return with({{"coefficient", s}});
+                    },
+                .start = 0.1,
+                .most = 0.5};
     }
 };
 

@@ -1,5 +1,6 @@
 // Periodic disturbance: a fan, a pump, another axis; tied to time and not to the motion.
 #include "compare/spectrum.hpp"
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -23,7 +24,10 @@ class PeriodicDisturbance : public WaveEffect {
                            {"phase", Quantity::angle, -kInf, kInf, "at the first row"}},
             .replaces = {},
             .needs = {},
-            .repeatable = true};
+            .repeatable = true,
+            .picture = {.against = Against::time,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"amplitude", 5e-3}, {"frequency", 11.0}, {"phase", 0.0}}}};
         return info;
     }
 
@@ -47,7 +51,7 @@ class PeriodicDisturbance : public WaveEffect {
         return cycles < 2.5 ? "the record holds too few of its cycles: as well a slow drift" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"frequency"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"frequency"}; }
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
@@ -66,6 +70,20 @@ class PeriodicDisturbance : public WaveEffect {
             out.push_back(term);
         }
         return out;
+    }
+
+    // Between the harmonics of a move that repeats: on one, another law would do as well.
+    Hiding hide(Draw& draw) const override {
+        const Scenery& s = draw.scenery();
+        const double phase = draw.phase(), slowest = 4 / s.duration_s;
+        if (!(0.7 * s.band_Hz > slowest)) return {};
+        double f = draw.log_uniform(slowest, 0.7 * s.band_Hz);
+        if (s.period_s > 0) f = (std::floor(f * s.period_s) + draw.uniform(0.3, 0.7)) / s.period_s;
+        return {.at =
+                    [=, this](double a) {
+                        return with({{"amplitude", a}, {"frequency", f}, {"phase", phase}});
+                    },
+                .start = draw.torque()};
     }
 };
 

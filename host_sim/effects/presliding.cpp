@@ -1,5 +1,6 @@
 // Pre-sliding: the contact bends like bristles before it slides (Dahl).
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -23,7 +24,11 @@ class Presliding : public Effect {
                             "torque per deflection at a reversal"},
                            {"torque", Quantity::torque, 0, kInf, "friction once it slides"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"stiffness", 1e-2}, {"torque", 6e-3}},
+                        .beside = {"viscous"}}};
         return info;
     }
 
@@ -31,7 +36,7 @@ class Presliding : public Effect {
         axis.bristle = Bristle{term.at("stiffness"), term.at("torque")};
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 1);
         const double length = std::max(1e-300, bending_length(term));
@@ -63,7 +68,7 @@ class Presliding : public Effect {
         return length < 0.5 * motion.position_quantum ? "stiffer than the encoder can show" : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"stiffness"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"stiffness"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.2, 0.07, 0.025, 0.009, 0.003}) {
@@ -78,6 +83,15 @@ class Presliding : public Effect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.position.size() ? "" : "the position was not recorded";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double length = draw.scenery().travel() * draw.log_uniform(0.01, 0.2);
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"stiffness", s / length}, {"torque", s}});
+                    },
+                .start = draw.torque()};
     }
 
   private:

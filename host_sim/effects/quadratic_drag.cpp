@@ -1,5 +1,6 @@
 // Quadratic drag: a fan, oil that is churned, air.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,11 @@ class QuadraticDrag : public Effect {
             .parameters = {{"coefficient", Quantity::quadratic_drag, 0, kInf,
                             "torque per squared velocity"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"coefficient", 4e-6}},
+                        .beside = {"coulomb"}}};
         return info;
     }
 
@@ -30,9 +35,18 @@ class QuadraticDrag : public Effect {
             [c](const AxisPoint& p) { return c * p.velocity * std::abs(p.velocity); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return motion.velocity.array() * motion.velocity.array().abs();
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double top = draw.scenery().top_speed;
+        return {.at =
+                    [this](double s) {
+                        return with({{"coefficient", s}});
+                    },
+                .start = draw.torque() / (top * top)};
     }
 };
 

@@ -55,6 +55,8 @@ std::string unit_of(Quantity quantity, Motion motion, bool ampere) {
         return rotary ? "N·m/rad" : "N/m";
     case Quantity::quadratic_drag:
         return rotary ? "N·m·s²/rad²" : "N·s²/m²";
+    case Quantity::none:
+        break;
     }
     return "";
 }

@@ -1,5 +1,6 @@
 // Spring: a torque in proportion to the way from a rest position.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,10 @@ class Spring : public Effect {
             .parameters = {{"stiffness", Quantity::stiffness, 0, kInf, "torque per way"},
                            {"rest_position", Quantity::position, -kInf, kInf, "where it is slack"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"stiffness", 3e-3}, {"rest_position", 3.0}}}};
         return info;
     }
 
@@ -29,8 +33,8 @@ class Spring : public Effect {
         axis.opposing.push_back([=](const AxisPoint& p) { return k * (p.position - rest); });
     }
 
-    bool depends_on_model() const override { return true; }
-    int linear_count() const override { return 2; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
         Eigen::MatrixXd out(motion.size(), 2);
@@ -51,6 +55,16 @@ class Spring : public Effect {
     }
     std::string cannot_show(const MotionView& motion) const override {
         return motion.position.size() ? "" : "the position was not recorded";
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const Scenery& s = draw.scenery();
+        const double rest = draw.uniform(s.lowest, s.highest);
+        return {.at =
+                    [=, this](double k) {
+                        return with({{"stiffness", k}, {"rest_position", rest}});
+                    },
+                .start = draw.torque() / s.travel()};
     }
 };
 

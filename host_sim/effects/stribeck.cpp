@@ -1,6 +1,7 @@
 // Stribeck friction: what must be overcome on top of Coulomb friction at low speed.
 #include "effects/direction.hpp"
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -12,7 +13,6 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 constexpr double kFewestRows = 0.01; // share of the rows below the Stribeck speed
-constexpr double kSlowest = 0.005;   // of the top speed: below it lies only the turn itself
 
 class Stribeck : public Effect {
     const EffectInfo& info() const override {
@@ -27,7 +27,10 @@ class Stribeck : public Effect {
                            {"velocity", Quantity::velocity, 1e-9, kInf,
                             "speed at which it has fallen to 37 %"}},
             .replaces = {},
-            .needs = {"coulomb"}};
+            .needs = {"coulomb"},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=1000,cycles=3",
+                        .parameters = {{"extra_torque", 6e-3}, {"velocity", 5.0}}}};
         return info;
     }
 
@@ -37,7 +40,7 @@ class Stribeck : public Effect {
             [=](double speed) { return extra * std::exp(-speed * speed / (vs * vs)); });
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         const double vs = term.at("velocity");
         const Eigen::ArrayXd u = motion.velocity.array() / vs;
@@ -53,7 +56,7 @@ class Stribeck : public Effect {
                                                                   : "";
     }
 
-    std::vector<std::string> shape_keys() const override { return {"velocity"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"velocity"}; }
     // Above half the top speed it would only bend the viscous line.
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
@@ -63,6 +66,17 @@ class Stribeck : public Effect {
             if (term.at("velocity") > 2 * search.motion.velocity_noise) out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double speed = draw.scenery().top_speed * draw.log_uniform(0.04, 0.3);
+        const double coulomb = draw.scenery().coulomb;
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"extra_torque", s}, {"velocity", speed}});
+                    },
+                .start = 0.5 * coulomb,
+                .most = 3 * coulomb};
     }
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+// Never hidden: inertia and friction take it up.
 class TorqueGain : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
@@ -19,7 +20,11 @@ class TorqueGain : public Effect {
             .reference = "Andoh 2008, section III-F",
             .parameters = {{"gain", Quantity::ratio, 1e-3, 1e3, "delivered over asked"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"gain", 0.8}},
+                        .refitted = true}};
         return info;
     }
 
@@ -27,7 +32,7 @@ class TorqueGain : public Effect {
         axis.drive.gain *= term.at("gain");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -37,7 +42,7 @@ class TorqueGain : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"gain"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"gain"}; }
     std::vector<EffectTerm> starts(const Search&) const override {
         EffectTerm term = blank();
         term.parameters["gain"] = 1;

@@ -1,5 +1,6 @@
 // Torque lag: the current loop follows what it is asked for.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -20,7 +21,11 @@ class TorqueLag : public Effect {
             .reference = "Andoh 2008, section III-F; Leonhard, Control of Electrical Drives, 2001",
             .parameters = {{"time_constant", Quantity::time, 0, 1, "of the current loop"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque_rate,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"time_constant", 5e-4}},
+                        .beside = {}}};
         return info;
     }
 
@@ -28,7 +33,7 @@ class TorqueLag : public Effect {
         axis.drive.lag_s = term.at("time_constant");
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -54,7 +59,14 @@ class TorqueLag : public Effect {
     }
 
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"time_constant"}; }
+    // A slow one smooths the noise of the torque instead, and looks better for it.
+    std::string implausible(const EffectTerm& term, const MotionView&) const override {
+        return term.at("time_constant") > 0.05 ? "no drive answers that late" : "";
+    }
+
+    std::vector<std::string> shape_keys(const EffectTerm&) const override {
+        return {"time_constant"};
+    }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         for (double share : {0.25, 0.08, 0.02}) {
@@ -63,6 +75,17 @@ class TorqueLag : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double band = draw.scenery().band_Hz;
+        return {.at =
+                    [this](double s) {
+                        return with({{"time_constant", s}});
+                    },
+                .start = 0.05 / band,
+                .least = 20e-6,
+                .most = 0.5 / band};
     }
 };
 

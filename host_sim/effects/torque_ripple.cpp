@@ -1,4 +1,5 @@
 // Torque ripple: the torque constant varies with position.
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -23,7 +24,11 @@ class TorqueRipple : public OrderEffect {
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
-            .repeatable = true};
+            .repeatable = true,
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:velocity=60,acceleration=1000,cycles=3",
+                        .parameters = {{"fraction", 0.3}, {"order", 8.0}, {"phase", 0.0}},
+                        .beside = {}}};
         return info;
     }
 
@@ -36,7 +41,7 @@ class TorqueRipple : public OrderEffect {
             [=](double position) { return a * std::sin(k * position + phase); });
     }
 
-    bool uses_torque() const override { return true; }
+    bool uses_torque(const EffectTerm&) const override { return true; }
     // T + a T sin(nθ+φ) = needed, so T = needed − a T sin(nθ+φ).
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
@@ -54,6 +59,17 @@ class TorqueRipple : public OrderEffect {
 
     OrderScan scan(const Search& search) const override {
         return {search, search.torque.cast<std::complex<double>>(), {}};
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double order = draw.order(), phase = draw.phase();
+        if (!(order > 0)) return {};
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"fraction", s}, {"order", order}, {"phase", phase}});
+                    },
+                .start = 0.1,
+                .most = 0.6};
     }
 };
 

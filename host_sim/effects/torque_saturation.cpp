@@ -1,5 +1,6 @@
 // Torque saturation: the drive cannot deliver more than its limit.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <cmath>
@@ -19,7 +20,11 @@ class TorqueSaturation : public Effect {
             .reference = "Leonhard, Control of Electrical Drives, 2001",
             .parameters = {{"limit", Quantity::torque, 1e-12, kInf, "largest torque either way"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::torque,
+                        .move = "trapezoid:velocity=60,acceleration=1500,cycles=3",
+                        .parameters = {{"limit", 0.015}},
+                        .beside = {}}};
         return info;
     }
 
@@ -28,7 +33,7 @@ class TorqueSaturation : public Effect {
         axis.drive.limit = axis.drive.limit > 0 ? std::min(axis.drive.limit, limit) : limit;
     }
 
-    int linear_count() const override { return 0; }
+    int linear_count(const EffectTerm&) const override { return 0; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return Eigen::MatrixXd(motion.size(), 0);
     }
@@ -43,8 +48,11 @@ class TorqueSaturation : public Effect {
                    ? "far below the torque that moved the axis"
                    : "";
     }
+    std::string cannot_show(const MotionView& motion) const override {
+        return motion.torque_measured ? "the torque was measured: behind any limit" : "";
+    }
     bool delivers() const override { return true; }
-    std::vector<std::string> shape_keys() const override { return {"limit"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"limit"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double top = search.torque.cwiseAbs().maxCoeff();
@@ -54,6 +62,18 @@ class TorqueSaturation : public Effect {
             out.push_back(term);
         }
         return out;
+    }
+
+    // Strength: how much of the largest torque is cut.
+    Hiding hide(Draw& draw) const override {
+        const double top = draw.scenery().top_torque;
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"limit", top * (1 - s)}});
+                    },
+                .start = 0.25,
+                .least = 0.03,
+                .most = 0.6};
     }
 };
 

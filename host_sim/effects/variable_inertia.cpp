@@ -1,4 +1,5 @@
 // Variable inertia: a crank, an eccentric, a linkage.
+#include "effects/hiding.hpp"
 #include "effects/wave.hpp"
 #include "plant/axis.hpp"
 
@@ -23,7 +24,10 @@ class VariableInertia : public OrderEffect {
                             "cycles per revolution or per metre"},
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::position,
+                        .move = "trapezoid:stroke=12.57,velocity=60,acceleration=1000,cycles=3",
+                        .parameters = {{"fraction", 0.3}, {"order", 2.0}, {"phase", 0.0}}}};
         return info;
     }
 
@@ -34,7 +38,7 @@ class VariableInertia : public OrderEffect {
                                         wave_number(term.at("order"), axis.kind), term.at("phase")};
     }
 
-    bool depends_on_model() const override { return true; }
+    bool depends_on_model(const EffectTerm&) const override { return true; }
     // J a cos(x+φ) − ½ J κ sin(x+φ) v², x = κθ, split into cos φ and sin φ.
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
@@ -55,6 +59,17 @@ class VariableInertia : public OrderEffect {
         const std::complex<double> half_i(0, 0.5);
         return {search, search.acceleration.cast<std::complex<double>>(),
                 half_i * search.velocity.cwiseAbs2().cast<std::complex<double>>()};
+    }
+
+    Hiding hide(Draw& draw) const override {
+        const double order = draw.order(), phase = draw.phase();
+        if (!(order > 0)) return {};
+        return {.at =
+                    [=, this](double s) {
+                        return with({{"fraction", s}, {"order", order}, {"phase", phase}});
+                    },
+                .start = 0.1,
+                .most = 0.6};
     }
 };
 

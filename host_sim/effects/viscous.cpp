@@ -1,5 +1,6 @@
 // Viscous friction: torque proportional to velocity.
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
 #include <limits>
@@ -19,7 +20,11 @@ class Viscous : public Effect {
                             std::numeric_limits<double>::infinity(),
                             "torque per velocity, both directions"}},
             .replaces = {},
-            .needs = {}};
+            .needs = {},
+            .picture = {.against = Against::velocity,
+                        .move = "trapezoid:velocity=60,acceleration=2500,cycles=3",
+                        .parameters = {{"coefficient", 2e-4}},
+                        .beside = {"coulomb"}}};
         return info;
     }
 
@@ -28,9 +33,17 @@ class Viscous : public Effect {
         axis.viscous_reverse += term.at("coefficient");
     }
 
-    int linear_count() const override { return 1; }
+    int linear_count(const EffectTerm&) const override { return 1; }
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         return motion.velocity;
+    }
+
+    Hiding hide(Draw& draw) const override {
+        return {.at =
+                    [this](double s) {
+                        return with({{"coefficient", s}});
+                    },
+                .start = draw.torque() / draw.scenery().top_speed};
     }
 };
 

@@ -15,7 +15,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 class WaveEffect : public Effect {
   public:
-    int linear_count() const override { return 2; }
+    int linear_count(const EffectTerm&) const override { return 2; }
     double linear_lower(int) const override { return -std::numeric_limits<double>::infinity(); }
 
     Eigen::VectorXd linear(const EffectTerm& term) const override {
@@ -57,7 +57,7 @@ constexpr double kFewestCycles = 1.5;
 // A sine of position whose order is searched for: cogging, ripple, an inertia that varies.
 class OrderEffect : public WaveEffect {
   public:
-    std::vector<std::string> shape_keys() const override { return {"order"}; }
+    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"order"}; }
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override;
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override;

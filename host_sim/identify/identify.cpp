@@ -137,7 +137,8 @@ MotionView velocity_of(const Capture& capture, const Vector& position, double fr
     const Eigen::Index reach =
         std::min<Eigen::Index>(period, std::lround(0.7 * double(period)) + 12);
     const Vector longer = continued(position, period, reach);
-    MotionView out;
+    MotionView out; // directions at instants, not over a sample's width: see held()
+    out.acceleration = Vector::Zero(position.size());
     for (double band = 0.3 / step;; band /= 1.3) {
         const LowPass low_pass(step, band);
         out.velocity = low_pass.apply(longer, {double(reach) * step, step, position.size()}, 1);

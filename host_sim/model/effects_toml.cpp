@@ -3,6 +3,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,12 @@ EffectTerm read_term(const TomlView& table, const EffectInfo& info) {
     return term;
 }
 
+[[noreturn]] void fail_for(const TomlView& custom, const LawFault& fault) {
+    if (fault.parameter.empty()) custom.fail("law", custom.full("law") + ": " + fault.reason);
+    const TomlView parameters = custom.table("parameters");
+    parameters.fail(fault.parameter, "[" + parameters.path() + "]: " + fault.reason);
+}
+
 EffectTerm read_custom(const TomlView& table, const std::string& name) {
     table.allow_only({"law", "parameters", "fixed"});
     EffectTerm term;
@@ -71,39 +78,52 @@ EffectTerm read_custom(const TomlView& table, const std::string& name) {
             term.parameters[key] = parameters.number(key);
     }
     term.fixed = read_fixed(table, keys);
+    if (const auto fault = find_fault(term.law, keys)) fail_for(table, *fault);
     return term;
+}
+
+// The tables of an array [[...]] below `parent`.
+std::vector<TomlView> tables_of(const TomlView& parent, const std::string& name) {
+    std::vector<TomlView> out;
+    for (const auto& element : *parent.raw().get(name)->as_array()) {
+        if (!element.is_table())
+            parent.fail(name, parent.full(name) + " must hold tables, not " + kind_of(element));
+        out.emplace_back(*element.as_table(), parent.file(), parent.full(name));
+    }
+    return out;
 }
 
 void read_customs(const TomlView& customs, const Effect* effect, std::vector<FoundTerm>& found) {
     for (const auto& name : customs.keys()) {
-        const TomlView table = customs.table(name);
-        found.push_back({table, effect, read_custom(table, name)});
+        if (name == "law" || name == "parameters" || name == "fixed")
+            customs.fail(name, "[" + customs.path() + "] holds laws by name; expected [" +
+                                   customs.full("NAME") + "] with " + in_quotes(name) + " in it");
+        if (const std::string why = fault_of_name(name); !why.empty()) customs.fail(name, why);
+        const bool array = customs.raw().get(name)->is_array();
+        for (const TomlView& table :
+             array ? tables_of(customs, name) : std::vector{customs.table(name)})
+            found.push_back({table, effect, read_custom(table, name)});
     }
 }
 
 void read_array(const TomlView& effects, const Effect* effect, std::vector<FoundTerm>& found) {
     const std::string& name = effect->info().name;
-    const toml::array& array = *effects.raw().get(name)->as_array();
     if (!effect->info().repeatable)
         effects.fail(name, "[[" + effects.full(name) + "]]: " + name +
                                " can be in a model only once; write it as a table [" +
                                effects.full(name) + "]");
-    for (const auto& element : array) {
-        if (!element.is_table())
-            effects.fail(name, effects.full(name) + " must hold tables, not " + kind_of(element));
-        const TomlView table(*element.as_table(), effects.file(), effects.full(name));
+    for (const TomlView& table : tables_of(effects, name))
         found.push_back({table, effect, read_term(table, effect->info())});
-    }
 }
 
 void read_one(const TomlView& effects, const std::string& name, std::vector<FoundTerm>& found) {
     const Effect* effect = find_effect(name);
-    if (!effect)
+    if (!effect || effect->info().name != name) // "custom.x" in quotes is one key
         effects.fail(name,
                      "unknown effect " + in_quotes(name) + suggestion(name, catalogue_names()));
+    if (name == custom_name) return read_customs(effects.table(name), effect, found);
     if (effects.raw().get(name)->is_array()) return read_array(effects, effect, found);
     const TomlView table = effects.table(name);
-    if (name == custom_name) return read_customs(table, effect, found);
     found.push_back({table, effect, read_term(table, effect->info())});
 }
 

@@ -2,6 +2,7 @@
 #include "effects/catalogue.hpp"
 #include "model/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -103,18 +104,20 @@ std::string drive_text(const Drive& drive) {
     return table.empty() ? "" : table.str();
 }
 
-std::string custom_text(const EffectTerm& term) {
-    TableText table("[effects." + term.name + "]");
+std::string custom_text(const EffectTerm& term, bool repeated) {
+    const std::string name = "[effects." + term.name + "]";
+    TableText table(repeated ? "[" + name + "]" : name);
     table.text("law", term.law);
     table.fixed(term.fixed);
+    if (term.parameters.empty()) return table.str();
     TableText parameters("[effects." + term.name + ".parameters]");
     for (const auto& [key, value] : term.parameters)
         parameters.number(key, value);
     return table.str() + parameters.str();
 }
 
-std::string effect_text(const EffectTerm& term) {
-    if (term.name.rfind("custom.", 0) == 0) return custom_text(term);
+std::string effect_text(const EffectTerm& term, bool repeated) {
+    if (!term.law.empty()) return custom_text(term, repeated);
     const Effect* effect = find_effect(term.name);
     const bool repeatable = effect && effect->info().repeatable;
     TableText table(repeatable ? "[[effects." + term.name + "]]" : "[effects." + term.name + "]");
@@ -125,6 +128,11 @@ std::string effect_text(const EffectTerm& term) {
                 table.number(parameter.key, term.at(parameter.key));
     table.fixed(term.fixed);
     return table.str();
+}
+
+long count_of(const Model& model, const std::string& name) {
+    return std::count_if(model.effects.begin(), model.effects.end(),
+                         [&](const EffectTerm& term) { return term.name == name; });
 }
 
 } // namespace
@@ -140,7 +148,7 @@ std::string format_model(const Model& model) {
     if (model.controller) text += controller_text(*model.controller);
     text += sensor_text(model) + drive_text(model.drive);
     for (const EffectTerm& term : model.effects)
-        text += effect_text(term);
+        text += effect_text(term, count_of(model, term.name) > 1);
     return text;
 }
 

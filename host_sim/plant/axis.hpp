@@ -28,7 +28,8 @@ struct ElasticLoad {
 // Where the axis is: the arguments of a law that is a plain function.
 struct AxisPoint {
     double time_s = 0, position = 0, velocity = 0;
-    double torque = 0; // delivered, N·m or N
+    double torque = 0;       // delivered, N·m or N
+    double acceleration = 0; // of the motor, where AxisDescription::reads_acceleration says so
 };
 
 // Bristle friction (Dahl): F' = σ v (1 − F sgn v / F_c), F_c = torque, σ = stiffness.
@@ -73,6 +74,8 @@ struct AxisDescription {
     std::vector<std::function<double(double speed)>> sliding_extra;
     // Any other law, opposing the motor: springs, drag, cogging, what depends on time.
     std::vector<std::function<double(const AxisPoint&)>> opposing;
+    // One of them depends on the acceleration, which is then solved for with what it causes.
+    bool reads_acceleration = false;
     std::function<double(double time_s)> friction_factor; // empty: 1
     DriveChain drive;
     std::function<double(double position)>

@@ -1,5 +1,8 @@
 #include "plant/axis_body.hpp"
 
+#include "common/error.hpp"
+#include "common/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,8 +71,9 @@ double Body::factor(double time_s) const {
     return axis_.friction_factor ? std::max(axis_.friction_factor(time_s), 0.0) : 1.0;
 }
 
-Body::Acting Body::acting(double at, const BodyState& y) const {
-    AxisPoint point{double(period_) * step_s_ + at, y.x, y.v, chain.delivered(at, y.x)};
+Body::Acting Body::acting(double at, const BodyState& y, double acceleration) const {
+    AxisPoint point{double(period_) * step_s_ + at, y.x, y.v, chain.delivered(at, y.x),
+                    acceleration};
     Acting out{point.torque, point.torque - axis_.constant_torque, factor(point.time_s)};
     for (const auto& law : axis_.opposing)
         out.free -= law(point);
@@ -160,10 +164,37 @@ BodyState Body::gap_slope(const BodyState& y, double torque) const {
 }
 
 BodyState Body::slope(double at, const BodyState& y) const {
+    if (axis_.reads_acceleration && slide_ != 0) return solved_slope(at, y);
+    return slope_with(at, y, 0);
+}
+
+// The acceleration at which the laws that depend on it lead to just that acceleration, by secants:
+// one step where they are linear in it.
+BodyState Body::solved_slope(double at, const BodyState& y) const {
+    constexpr int most = 60;
+    constexpr double enough = 1e-12;
+    double before = 0, guess = slope_with(at, y, before).v;
+    double gap_before = guess;
+    const double size = std::abs(guess);
+    for (int i = 0; i < most; ++i) {
+        const BodyState out = slope_with(at, y, guess);
+        const double gap = out.v - guess;
+        if (std::abs(gap) <= enough * (size + std::abs(guess))) return out;
+        const double next = guess - gap * (guess - before) / (gap - gap_before);
+        before = guess, gap_before = gap, guess = next;
+    }
+    if (!std::isfinite(y.v)) return {y.v, y.v, 0, 0};
+    throw Error(ExitCode::refused,
+                "a law that depends on the acceleration cannot be solved for it at t = " +
+                    format_number(double(period_) * step_s_ + at) +
+                    " s: no acceleration leads to itself");
+}
+
+BodyState Body::slope_with(double at, const BodyState& y, double acceleration) const {
     if (slide_ == 0 && kind_ == Kind::rigid) return {};
     double torque = 0;
     if (slide_ != 0) {
-        const Acting on = acting(at, y);
+        const Acting on = acting(at, y, acceleration);
         torque = on.free - friction(y.v, on);
     }
     if (kind_ == Kind::flexible) return flexible_slope(y, torque);

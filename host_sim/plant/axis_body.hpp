@@ -10,6 +10,7 @@
 //   bristle  φ·F. Dahl's law has no clock, so between two reversals F is a function of the
 //   position,
 //            F = sgn v·F_c + (F₀ − sgn v·F_c)·exp(−σ|x − x₀|/F_c): exact at any speed and step.
+// A law that depends on the acceleration is given the one that it leads to (solved_slope).
 // The body behind the motor is one of four:
 //   rigid      J·w(θ), w = 1 + fraction·cos(order·θ + phase), with ½·J·w'(θ)·v²
 //   flexible   eq. (7): the torque on it, times J/J(θ), through the flexible part of the linear
@@ -66,7 +67,9 @@ class Body {
     void set_flexible_part(const ElasticLoad& e);
     void set_sprung_gap(const ElasticLoad& e);
     double factor(double time_s) const;
-    Acting acting(double at, const BodyState& y) const;
+    Acting acting(double at, const BodyState& y, double acceleration = 0) const;
+    BodyState slope_with(double at, const BodyState& y, double acceleration) const;
+    BodyState solved_slope(double at, const BodyState& y) const;
     double bristle(double x) const;
     double level(int direction, double speed, const Acting& acting) const;
     double friction(double v, const Acting& acting) const;

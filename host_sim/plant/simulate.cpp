@@ -6,7 +6,7 @@
 
 namespace servoid {
 
-Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed) {
+SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed) {
     DriveOptions options;
     options.seed = seed, options.torque_noise = experiment.torque_noise;
     SimulatedDrive drive(model, options);
@@ -32,7 +32,11 @@ Capture simulate(const Model& model, const Experiment& experiment, unsigned long
         out.position.push_back(s.position);
         if (experiment.segment) out.segment.push_back(experiment.segment(t));
     }
-    return out;
+    return {std::move(out), drive.saturated()};
+}
+
+Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed) {
+    return simulate_run(model, experiment, seed).capture;
 }
 
 } // namespace servoid

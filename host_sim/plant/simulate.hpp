@@ -7,6 +7,12 @@
 
 namespace servoid {
 
+struct SimulatedRun {
+    Capture capture;
+    bool saturated = false; // the loop met its torque limit
+};
+
+SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed);
 Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed);
 
 } // namespace servoid

@@ -7,8 +7,8 @@ using namespace servoid::cli_test;
 
 namespace {
 
-const std::vector<std::string> verbs = {"simulate", "identify", "sweep",  "friction",
-                                        "compare",  "add",      "effects"};
+const std::vector<std::string> verbs = {"simulate", "identify", "sweep",   "friction",
+                                        "compare",  "add",      "effects", "reveal"};
 
 TEST(EveryVerb, HasHelpWithExamples) {
     for (const std::string& verb : verbs) {
