@@ -1,5 +1,6 @@
 // servoid add: one more effect, fitted with everything else.
 #include "cli/app.hpp"
+#include "cli/check_capture.hpp"
 #include "cli/custom_argument.hpp"
 #include "cli/parameters.hpp"
 #include "common/error.hpp"
@@ -36,6 +37,7 @@ void run_add(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
+    const std::vector<std::string> warnings = check_capture(model, motions, o.output);
     const Addition a = law ? add_law(model, *law, motions) : add_effect(model, name, motions);
     const bool ampere = captures.front().torque_in_ampere;
     if (!o.out.empty()) write_file(o.out, format_model(a.after.model));
@@ -45,6 +47,7 @@ void run_add(const Options& o) {
                          {"error_after", number(a.after.torque_error)},
                          {"band_Hz", motions.front().band_Hz},
                          {"at_bound", a.after.at_bound},
+                         {"warnings", warnings},
                          {"model", model_json(a.after.model)},
                          {"model_parameters", fitted_parameters(a.after, ampere)}});
     o.output.line(fmt::format(

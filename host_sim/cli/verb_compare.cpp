@@ -1,5 +1,6 @@
 // servoid compare: how far model and measurement are apart, and where.
 #include "cli/app.hpp"
+#include "cli/check_capture.hpp"
 #include "cli/parameters.hpp"
 #include "compare/compare.hpp"
 
@@ -18,7 +19,7 @@ struct Options {
     std::string model;
 };
 
-Json to_json(const Comparison& c) {
+Json to_json(const Comparison& c, const std::vector<std::string>& warnings) {
     Json out = {{"schema", "servoid.compare/1"},
                 {"torque_error", number(c.torque_error)},
                 {"noise_floor", number(c.floor.ratio)},
@@ -39,6 +40,7 @@ Json to_json(const Comparison& c) {
     out["samples"] = c.samples;
     out["samples_used_share"] = c.samples_used_share;
     out["duration_s"] = c.duration_s;
+    out["warnings"] = warnings;
     return out;
 }
 
@@ -70,8 +72,10 @@ void print(const Output& out, const Comparison& c) {
 void run_compare(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
-    const Comparison c = compare(model, prepare_all(captures, o.captures.motion()));
-    o.output.print_json(to_json(c));
+    const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
+    const std::vector<std::string> warnings = check_capture(model, motions, o.output);
+    const Comparison c = compare(model, motions);
+    o.output.print_json(to_json(c, warnings));
     print(o.output, c);
 }
 

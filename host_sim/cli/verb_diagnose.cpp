@@ -1,5 +1,6 @@
 // servoid diagnose: which physical effect is missing?
 #include "cli/app.hpp"
+#include "cli/check_capture.hpp"
 #include "cli/parameters.hpp"
 #include "common/file.hpp"
 #include "diagnose/diagnose.hpp"
@@ -46,7 +47,9 @@ Json next_json(const std::optional<NextExperiment>& next) {
             {"reason", next->reason}};
 }
 
-Json to_json(const Diagnosis& d, bool ampere) {
+using Warnings = std::vector<std::string>;
+
+Json to_json(const Diagnosis& d, const Warnings& warnings, bool ampere) {
     Json out = {{"schema", "servoid.diagnose/1"},
                 {"verdict", verdict_name(d.verdict)},
                 {"error_before", number(d.error_before)},
@@ -62,8 +65,30 @@ Json to_json(const Diagnosis& d, bool ampere) {
         out["probes"].push_back({{"variable", p.name}, {"explained", number(p.explained)}});
     out["model_parameters"] = fitted_parameters(d.before, ampere);
     out["next_experiment"] = next_json(d.next);
+    out["cannot_show"] = cannot_show_json(d.cannot_show);
+    out["warnings"] = warnings;
+    if (d.shortage) out["reason"] = d.shortage->why;
     out["advice"] = d.advice;
     return out;
+}
+
+// Of a capture that was refused before anything could be said.
+Json no_diagnosis() {
+    return {{"schema", "servoid.diagnose/1"}, {"verdict", nullptr},
+            {"error_before", nullptr},        {"validation_error_before", nullptr},
+            {"noise_floor", nullptr},         {"band_Hz", nullptr},
+            {"candidates", Json::array()},    {"model_parameters", nullptr},
+            {"next_experiment", nullptr},     {"cannot_show", Json::array()},
+            {"warnings", Json::array()}};
+}
+
+void print_best(const Output& out, const Diagnosis& d, bool ampere) {
+    if (d.candidates.empty() || !d.candidates.front().sound) return;
+    const Candidate& best = d.candidates.front();
+    out.line(fmt::format("\n{}: {}", best.effect, best.signature));
+    for (const FittedParameter& p : best.parameters)
+        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}", p.name, p.estimate.value,
+                             p.estimate.std, unit_of(p.quantity, d.before.model.motion, ampere)));
 }
 
 void print(const Output& out, const Diagnosis& d, bool ampere) {
@@ -79,12 +104,8 @@ void print(const Output& out, const Diagnosis& d, bool ampere) {
         out.line(fmt::format("{:<22} {:>11.3f} {:>9} {:>9}   {}", c.effect, c.probability,
                              percent(c.error_after), percent(c.validation_error_after), c.note));
     }
-    if (d.candidates.empty() || !d.candidates.front().sound) return;
-    const Candidate& best = d.candidates.front();
-    out.line(fmt::format("\n{}: {}", best.effect, best.signature));
-    for (const FittedParameter& p : best.parameters)
-        out.line(fmt::format("  {:<34} {:>12.5g} ± {:<9.2g} {}", p.name, p.estimate.value,
-                             p.estimate.std, unit_of(p.quantity, d.before.model.motion, ampere)));
+    print_best(out, d, ampere);
+    print_cannot_show(out, d.cannot_show);
 }
 
 DiagnoseOptions with_progress(const Output& output) {
@@ -97,14 +118,20 @@ DiagnoseOptions with_progress(const Output& output) {
     return options;
 }
 
-void run_diagnose(const Options& o) {
+void answer_diagnose(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const bool ampere = captures.front().torque_in_ampere;
-    const Diagnosis d =
-        diagnose(model, prepare_all(captures, o.captures.motion()), with_progress(o.output));
-    o.output.print_json(to_json(d, ampere));
+    const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
+    const Warnings warnings = check_capture(model, motions, o.output);
+    const Diagnosis d = diagnose(model, motions, with_progress(o.output));
+    o.output.print_json(to_json(d, warnings, ampere));
     print(o.output, d, ampere);
+    refuse_if_insufficient(d);
+}
+
+void run_diagnose(const Options& o) {
+    or_insufficient(o.output, no_diagnosis(), [&] { answer_diagnose(o); });
 }
 
 struct RefineOptions : Options {
@@ -112,7 +139,7 @@ struct RefineOptions : Options {
     std::string out;
 };
 
-Json to_json(const Refinement& r, bool ampere) {
+Json to_json(const Refinement& r, const Warnings& warnings, bool ampere) {
     Json out = {{"schema", "servoid.refine/1"},
                 {"verdict", verdict_name(r.verdict)},
                 {"ladder", Json::array()}};
@@ -126,8 +153,19 @@ Json to_json(const Refinement& r, bool ampere) {
     out["noise_floor"] = number(r.noise_floor);
     out["band_Hz"] = r.last.band_Hz;
     out["next_experiment"] = next_json(r.last.next);
+    out["cannot_show"] = cannot_show_json(r.last.cannot_show);
+    out["warnings"] = warnings;
+    if (r.last.shortage) out["reason"] = r.last.shortage->why;
     out["advice"] = r.last.advice;
     return out;
+}
+
+Json no_refinement() {
+    return {
+        {"schema", "servoid.refine/1"}, {"verdict", nullptr},       {"ladder", Json::array()},
+        {"removed", Json::array()},     {"model", nullptr},         {"model_parameters", nullptr},
+        {"noise_floor", nullptr},       {"band_Hz", nullptr},       {"next_experiment", nullptr},
+        {"cannot_show", Json::array()}, {"warnings", Json::array()}};
 }
 
 void print(const Output& out, const Refinement& r, bool ampere) {
@@ -143,19 +181,27 @@ void print(const Output& out, const Refinement& r, bool ampere) {
     out.line(fmt::format("{:<24} {:>8}\n", "noise floor", percent(r.noise_floor)));
     out.line(out.bold(verdict_name(r.verdict)) + "   " + r.last.advice);
     print_parameters(out, r.result, ampere);
+    print_cannot_show(out, r.last.cannot_show);
 }
 
-void run_refine(const RefineOptions& o) {
+void answer_refine(const RefineOptions& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const std::vector<Capture> unseen = o.captures.read_files(o.validate, &model);
     const bool ampere = captures.front().torque_in_ampere;
-    const Refinement r = refine(model, prepare_all(captures, o.captures.motion()),
-                                prepare_all(unseen, o.captures.motion()), with_progress(o.output));
+    const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
+    const Warnings warnings = check_capture(model, motions, o.output);
+    const Refinement r =
+        refine(model, motions, prepare_all(unseen, o.captures.motion()), with_progress(o.output));
     if (!o.out.empty()) write_file(o.out, format_model(r.result.model));
-    o.output.print_json(to_json(r, ampere));
+    o.output.print_json(to_json(r, warnings, ampere));
     print(o.output, r, ampere);
     if (!o.out.empty()) o.output.line("wrote " + o.out);
+    refuse_if_insufficient(r.last);
+}
+
+void run_refine(const RefineOptions& o) {
+    or_insufficient(o.output, no_refinement(), [&] { answer_refine(o); });
 }
 
 } // namespace

@@ -31,12 +31,13 @@ class FileError : public Error {
 class Refusal : public Error {
   public:
     Refusal(const std::string& reason, const std::string& record_instead)
-        : Error(ExitCode::refused, reason + "; record instead: " + record_instead),
+        : Error(ExitCode::refused, reason + "; record instead: " + record_instead), reason_(reason),
           record_instead_(record_instead) {}
+    const std::string& reason() const { return reason_; }
     const std::string& record_instead() const { return record_instead_; }
 
   private:
-    std::string record_instead_;
+    std::string reason_, record_instead_;
 };
 
 // Wrong usage of the command line.

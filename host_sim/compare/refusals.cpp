@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "compare/one_way.hpp"
 #include "compare/regression.hpp"
 #include "effects/catalogue.hpp"
 
@@ -34,12 +35,7 @@ bool is_free(const Model& model, const std::string& prefix) {
 
 void refuse_one_way(const Model& model, const std::vector<PreparedMotion>& motions) {
     if (!is_free(model, "coulomb") || !is_free(model, "constant_torque")) return;
-    double forward = 0, reverse = 0;
-    for (const PreparedMotion& m : motions)
-        for (Eigen::Index k = 0; k < m.velocity.size(); ++k)
-            if (m.used[size_t(k)])
-                (m.velocity[k] > 0 ? forward : reverse) += std::abs(m.velocity[k]) * m.grid.step_s;
-    if (std::min(forward, reverse) > 0.02 * std::max(forward, reverse)) return;
+    if (!moves_one_way(motions)) return;
     throw Refusal("the axis moves one way only: Coulomb friction and a constant torque cannot be "
                   "told apart",
                   "the same move in both directions, or fix one of them in the model");

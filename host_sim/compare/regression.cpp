@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "compare/linear_fit.hpp"
+#include "compare/one_way.hpp"
 #include "compare/refusals.hpp"
 #include "compare/start_search.hpp"
 #include "effects/catalogue.hpp"
@@ -20,6 +21,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostContexts = 12;       // of a law that depends on the torque
 constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
+constexpr double kTakesWork = 0.02;     // of the power's size: the torque drives the axis
 
 // A shape parameter that the fit may move.
 struct Shape {
@@ -334,7 +336,9 @@ double linear_error(const Model& model, Assembler& assembler) {
 namespace {
 
 // The torque counted the other way round explains the motion: not a missing effect.
-void refuse_if_reversed(const State& s, double believed, double error_held) {
+void refuse_if_reversed(const State& s, double believed, double error_held,
+                        const std::vector<PreparedMotion>& motions) {
+    if (work_share(motions) > kTakesWork) return;
     std::vector<bool> fixed;
     std::vector<double> lower;
     for (const Coefficient& c : s.assembly.coefficients)
@@ -362,7 +366,7 @@ FitResult with_inertia_held(const Model& model, const State& s, Assembler& assem
                       "together (a wrong column or unit)",
                       "torque that is positive where it speeds the axis up");
     FitResult out = fit(held, assembler, options);
-    refuse_if_reversed(s, model.inertia, out.torque_error);
+    refuse_if_reversed(s, model.inertia, out.torque_error, assembler.motions());
     out.model.inertia_fixed = false;
     return out;
 }

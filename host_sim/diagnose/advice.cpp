@@ -80,7 +80,8 @@ std::string advice_for(const Diagnosis& d) {
     case Verdict::insufficient:
         break;
     }
-    return "the capture cannot answer";
+    return d.shortage ? d.shortage->why + "; record instead: " + d.shortage->record
+                      : "the capture cannot answer";
 }
 
 } // namespace servoid

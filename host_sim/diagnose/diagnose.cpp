@@ -115,7 +115,11 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
         finish(d.candidates.front(), d.before, assembler);
         weigh(d, assembler);
     }
+    share_aliases(d, motions);
     d.verdict = judge(d, assembler, options.look_ahead);
+    d.shortage = shortage_of(d, assembler);
+    if (d.shortage) d.verdict = Verdict::insufficient;
+    d.cannot_show = unseen_of(d, assembler);
     if (options.look_ahead) d.next = next_of(d, motions); // not in the steps of refine
     d.advice = advice_for(d);
     return d;

@@ -6,6 +6,7 @@
 #include "diagnose/candidates.hpp"
 #include "diagnose/next_experiment.hpp"
 #include "diagnose/probe.hpp"
+#include "diagnose/unseen.hpp"
 
 #include <string>
 #include <vector>
@@ -34,6 +35,8 @@ struct Diagnosis {
     std::vector<Candidate> candidates;  // best first, every effect that was tried
     std::vector<Probe> probes;          // what the residual depends on, catalogue or not
     std::optional<NextExperiment> next; // what tells the rivals of an ambiguous verdict apart
+    std::vector<Unseen> cannot_show;    // what this capture neither shows nor excludes
+    std::optional<Unseen> shortage;     // of an insufficient verdict
     std::string advice;
     double band_Hz = 0;
 };
