@@ -215,7 +215,7 @@ TEST(NextExperiment, LagOrDeadTimeGoesHigher) {
                             truth,
                             {"torque_lag", "dead_time"},
                             "multisine:from_Hz=1,to_Hz=12,step_Hz=1,amplitude=1,periods=4",
-                            5e-4});
+                            4e-3});
     ASSERT_TRUE(r.next);
     EXPECT_GT(r.next->motions[0].band_Hz, 1.5 * r.old->motions[0].band_Hz);
 }

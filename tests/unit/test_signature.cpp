@@ -34,6 +34,7 @@ bool any(double) { return true; }
 
 TEST(Signature, EveryEffectHasOneThatIsSeen) {
     for (const Effect* effect : catalogue()) {
+        if (effect->info().written) continue; // a law that nobody has written yet shows nothing
         const std::string name = effect->info().name;
         SCOPED_TRACE(name);
         const Signature s = signature_of(*effect);
