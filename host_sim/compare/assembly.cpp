@@ -104,7 +104,18 @@ void refuse_if_undefined(const Model& model, const MotionView& view, const Vecto
 
 } // namespace
 
+namespace {
+
+void tell_of_load(const Model& model, MotionView& view) {
+    const EffectTerm* e = model.find("elastic_load");
+    const double ratio = e ? e->at("antiresonance_frequency") / e->at("resonance_frequency") : 1;
+    view.load_share = std::max(0.0, 1 - ratio * ratio);
+}
+
+} // namespace
+
 MotionView in_context(const Model& model, MotionView view) {
+    tell_of_load(model, view);
     view.inertia = model.inertia;
     view.viscous = 0;
     view.has_constant = model.find("constant_torque") != nullptr;
@@ -191,6 +202,7 @@ const Matrix& Assembler::inertia_of(const Model& model) {
     if (found != cache_.end()) return found->second;
     Matrix all(0, 1);
     for (size_t i = 0; i < motions_.size(); ++i) {
+        tell_of_load(model, views_[i]); // shapes move between two contexts
         Vector inertia = views_[i].acceleration;
         for (const EffectTerm& term : model.effects)
             effect_of(term).shape_inertia(term, views_[i], inertia);

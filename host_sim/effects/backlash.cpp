@@ -13,7 +13,8 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 // The load inside a gap, dragged along a motion that is given: free between the faces, with the
-// motor's speed from the moment a face meets it (a plastic impact).
+// motor's speed from the moment a face meets it (a plastic impact). A spring in the faces makes it
+// bounce, but how often hangs on less than can be measured: a model of the mean does better.
 class DraggedLoad {
   public:
     DraggedLoad(double gap, double position) : half_(gap / 2), position_(position) {}
@@ -35,6 +36,15 @@ class DraggedLoad {
 
     double half_, position_, velocity_ = 0;
 };
+
+// The load's velocity at each sample.
+Eigen::VectorXd load_velocity(double gap, const MotionView& m) {
+    DraggedLoad load(gap, m.position[0]);
+    Eigen::VectorXd out(m.size());
+    for (Eigen::Index i = 0; i < m.size(); ++i)
+        out[i] = load.next(m.position[i], m.velocity[i], m.sample_time_s);
+    return out;
+}
 
 class Backlash : public Effect {
     const EffectInfo& info() const override {
@@ -70,16 +80,13 @@ class Backlash : public Effect {
     // The load's share of J times the load's acceleration instead of the motor's.
     void shape_inertia(const EffectTerm& term, const MotionView& motion,
                        Eigen::VectorXd& torque) const override {
-        const double share = term.at("load_share");
-        if (motion.position.size() == 0 || !(term.at("gap") > 0) || !(share > 0)) return;
-        DraggedLoad load(term.at("gap"), motion.position[0]);
+        const double share = motion.load_share > 0 ? motion.load_share : term.at("load_share");
+        const double gap = term.at("gap");
+        if (motion.position.size() < 3 || !(gap > 0) || !(share > 0)) return;
+        const Eigen::VectorXd v = load_velocity(gap, motion);
         const double h = motion.sample_time_s;
-        double before = motion.velocity[0];
-        for (Eigen::Index i = 0; i < motion.size(); ++i) {
-            const double now = load.next(motion.position[i], motion.velocity[i], h);
-            torque[i] += share * ((now - before) / h - motion.acceleration[i]);
-            before = now;
-        }
+        for (Eigen::Index i = 1; i + 1 < motion.size(); ++i)
+            torque[i] += share * ((v[i + 1] - v[i - 1]) / (2 * h) - motion.acceleration[i]);
     }
 
     bool shapes_inertia() const override { return true; }
@@ -99,6 +106,11 @@ class Backlash : public Effect {
                 EffectTerm term = blank();
                 term.parameters["gap"] = share * search.motion.travel();
                 term.parameters["load_share"] = load;
+                if (search.motion.load_share > 0) { // the elastic load says it
+                    if (load != 0.5) continue;
+                    term.parameters["load_share"] = search.motion.load_share;
+                    term.fixed = {"load_share"};
+                }
                 if (term.at("gap") > search.motion.position_quantum) out.push_back(term);
             }
         return out;

@@ -98,7 +98,10 @@ struct MotionView {
     Motion kind = Motion::rotary;
     // What the rest of the model says, for effects that change another: refreshed before each fit.
     double inertia = 0, viscous = 0;
-    Eigen::VectorXd friction;  // torque of all friction of the model
+    Eigen::VectorXd friction; // torque of all friction of the model
+    // The load's share of the inertia where the model has an elastic load, 1 − (ωa/ωr)², and of
+    // what it swings on where a backlash stands before it; 0: none.
+    double load_share = 0, antiresonance_rad_s = 0, antiresonance_damping = 0;
     bool has_constant = false; // the model has a constant torque: no other effect needs its own
     Eigen::Index size() const { return velocity.size(); }
     bool torque_measured = false; // the torque that acts on the axis, not the one asked for

@@ -1,0 +1,180 @@
+// Twins: what a model does in its own loop, and what the method leaves of a model that is complete.
+#include "common/error.hpp"
+#include "compare/compare.hpp"
+#include "compare/loop_twin.hpp"
+#include "diagnose/add_effect.hpp"
+#include "diagnose/diagnose.hpp"
+#include "diagnose/evidence.hpp"
+#include "diagnose/structure.hpp"
+#include "diagnose/twin.hpp"
+#include "effects/catalogue.hpp"
+#include "plant/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace servoid;
+
+namespace {
+
+// System 2 of the paper without its elastic load.
+std::string slider(const std::string& more = "") {
+    return "motion = \"rotary\"\n[plant]\ninertia = 5.56e-5\n"
+           "[controller]\ntype = \"p_pi\"\nposition_gain = 40.0\nspeed_gain = 7e-3\n"
+           "integral_time = 0.016\nsample_time = 125e-6\n[sensor]\ncounts_per_rev = 131072\n"
+           "[drive]\nrated_torque = 0.637\n[effects.viscous]\ncoefficient = 9.6e-4\n"
+           "[effects.coulomb]\ntorque = 2.1e-2\n" +
+           more;
+}
+
+Model model_of(const std::string& more = "") { return parse_model(slider(more), "slider"); }
+
+Capture capture_of(const Model& truth, const std::string& move, unsigned long seed = 3) {
+    return simulate(truth, parse_experiment(move), seed);
+}
+
+double position_miss(const Capture& a, const Capture& b) {
+    double most = 0;
+    for (size_t i = 0; i < a.rows(); ++i)
+        most = std::max(most, std::abs(a.position[i] - b.position[i]));
+    return most;
+}
+
+Capture without_first(Capture c, size_t rows) {
+    for (auto* v : {&c.time_s, &c.torque_ref, &c.position, &c.position_ref})
+        if (!v->empty()) v->erase(v->begin(), v->begin() + long(rows));
+    for (double& t : c.time_s)
+        t -= double(rows) * c.sample_time_s;
+    return c;
+}
+
+constexpr const char* kSlowTurns = "trapezoid:stroke=2,velocity=8,acceleration=100,cycles=3";
+constexpr const char* kMultisine =
+    "multisine:from_Hz=2,to_Hz=80,step_Hz=2,amplitude=0.5,periods=6,torque_noise=3e-3";
+
+} // namespace
+
+TEST(LoopTwin, OfTheTruthIsTheCapture) {
+    const Model truth = model_of();
+    const Capture capture = capture_of(truth, std::string(kSlowTurns) + ",rest=0.01");
+    const auto twin = loop_twin(truth, capture);
+    ASSERT_TRUE(twin);
+    EXPECT_EQ(twin->position, capture.position);
+    EXPECT_EQ(twin->torque_ref, capture.torque_ref);
+}
+
+TEST(LoopTwin, StartsInsideARepeatedMotionWithItsIntegratorFilled) {
+    const Model truth = model_of("[effects.constant_torque]\ntorque = 0.05\n");
+    const Capture whole = capture_of(truth, "sine:frequency_Hz=5,periods=6,amplitude=1");
+    Capture later = without_first(whole, 1600);
+    later.period_s = 0.2;
+    const auto twin = loop_twin(truth, later);
+    ASSERT_TRUE(twin);
+    const double counts = position_miss(*twin, later) / later.position_quantum;
+    std::printf("figure: twin from the second period on, farthest = %.1f counts\n", counts);
+    EXPECT_LT(counts, 30); // of some 41700 in the stroke
+}
+
+TEST(LoopTwin, NeedsALoopAReferenceAndAPosition) {
+    const Capture capture = capture_of(model_of(), kSlowTurns);
+    Model no_loop = model_of();
+    no_loop.controller.reset();
+    EXPECT_FALSE(loop_twin(no_loop, capture));
+    Capture no_reference = capture;
+    no_reference.position_ref.clear();
+    EXPECT_FALSE(loop_twin(model_of(), no_reference));
+    Capture other_rate = capture;
+    other_rate.sample_time_s *= 2;
+    EXPECT_FALSE(loop_twin(model_of(), other_rate));
+}
+
+TEST(Twins, TakeOutWhatReversalsLeaveOfACompleteModel) {
+    const Model truth = model_of();
+    const std::vector<Capture> captures = {capture_of(truth, kSlowTurns)};
+    const auto motions = prepare_all(captures, {});
+    Assembler assembler(motions);
+    const FitResult raw = fit(truth, assembler);
+    const FitResult freed = without_artifact(raw, assembler, 2);
+    std::printf("figure: complete model, slow turns, error = %.3g %%, of which the method's own "
+                "leaves %.3g %%\n",
+                100 * raw.torque_error, 100 * freed.torque_error);
+    EXPECT_LT(freed.torque_error, 0.6 * raw.torque_error);
+    EXPECT_NEAR(freed.model.inertia, truth.inertia, 0.01 * truth.inertia);
+}
+
+// Half of what noise leaves can look like an elastic load: the loop has fed it round.
+TEST(Twins, NoiseGainsAsMuchWithoutAnEffect) {
+    const Model truth = model_of();
+    const std::vector<Capture> captures = {capture_of(truth, kMultisine)};
+    const auto motions = prepare_all(captures, {});
+    Assembler assembler(motions);
+    const FitResult before = fit(truth, assembler);
+    for (const char* name : {"elastic_load", "dead_time", "torque_lag"}) {
+        const Effect& effect = *find_effect(name);
+        double gain = 0;
+        try {
+            gain = std::log(before.torque_error / fit_with(before, effect, assembler).torque_error);
+        } catch (const Refusal&) {
+        }
+        const auto noise = gain_from_noise(before, effect, assembler);
+        ASSERT_TRUE(noise);
+        std::printf("figure: %s on noise gains %.4f, on twins %.4f\n", name, gain, *noise);
+        EXPECT_LT(gain, *noise + 0.02);
+    }
+    EXPECT_EQ(diagnose(truth, motions).verdict, Verdict::adequate);
+}
+
+TEST(Structure, IsSeenOfALawWithoutANameAndNotOfNoise) {
+    const Model known = model_of();
+    const Model truth = model_of("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
+                                 "[effects.custom.cubic.parameters]\nk = 1e-2\n");
+    for (const bool hidden : {false, true}) {
+        const std::vector<Capture> captures = {
+            capture_of(hidden ? truth : known, std::string(kSlowTurns) + ",torque_noise=2e-3")};
+        const auto motions = prepare_all(captures, {});
+        Assembler assembler(motions);
+        const FitResult fitted = fit(known, assembler);
+        const Structure s = structure_of(fitted, held_out_error(fitted, assembler), assembler);
+        EXPECT_EQ(s.evident.has_value(), hidden);
+        if (s.evident) {
+            EXPECT_EQ(s.evident->name, "position");
+        }
+    }
+}
+
+TEST(Diagnose, ACubicSpringIsUnknownAndOnesOwnLawBringsItToTheFloor) {
+    const Model known = model_of();
+    const Model truth = model_of("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
+                                 "[effects.custom.cubic.parameters]\nk = 1e-2\n");
+    const std::vector<Capture> captures = {
+        capture_of(truth, std::string(kSlowTurns) + ",torque_noise=2e-3")};
+    const auto motions = prepare_all(captures, {});
+    const Diagnosis d = diagnose(known, motions);
+    EXPECT_EQ(d.verdict, Verdict::unknown) << d.advice;
+    const std::vector<Capture> free = {
+        capture_of(known, std::string(kSlowTurns) + ",torque_noise=2e-3")};
+    const double floor = fit(known, prepare_all(free, {})).torque_error;
+    const double error = fit(truth, motions).torque_error;
+    std::printf("figure: cubic spring, error with one's own law = %.3g %%, floor %.3g %%\n",
+                100 * error, 100 * floor);
+    EXPECT_LT(error, 1.1 * floor);
+}
+
+TEST(Fit, HoldsAnInertiaThatAMissingLawTurnsOverAndRefusesAReversedTorque) {
+    // Slow turns under strong gravity: the spring-like part of it is larger than J·ω².
+    const Model truth = model_of("[effects.gravity]\ntorque = 0.3\nphase = 0.0\n");
+    std::vector<Capture> captures = {
+        capture_of(truth, "sine:frequency_Hz=2,periods=4,amplitude=1")};
+    const FitResult held = fit(model_of(), prepare_all(captures, {}));
+    EXPECT_GT(held.model.inertia, 0);
+    const Diagnosis d = diagnose(model_of(), prepare_all(captures, {}));
+    ASSERT_FALSE(d.candidates.empty());
+    EXPECT_TRUE(d.candidates[0].effect == "gravity" || d.candidates[0].effect == "spring");
+
+    captures = {capture_of(model_of(), kMultisine)};
+    for (double& t : captures[0].torque_ref)
+        t = -t;
+    EXPECT_THROW(fit(model_of(), prepare_all(captures, {})), Refusal);
+}
