@@ -214,8 +214,8 @@ TEST(NextExperiment, LagOrDeadTimeGoesHigher) {
                             base,
                             truth,
                             {"torque_lag", "dead_time"},
-                            "multisine:from_Hz=1,to_Hz=12,step_Hz=1,amplitude=1,periods=4",
-                            4e-3});
+                            "multisine:from_Hz=1,to_Hz=8,step_Hz=1,amplitude=1,periods=4",
+                            2e-3});
     ASSERT_TRUE(r.next);
     EXPECT_GT(r.next->motions[0].band_Hz, 1.5 * r.old->motions[0].band_Hz);
 }
