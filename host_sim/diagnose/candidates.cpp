@@ -127,11 +127,13 @@ void share_out(size_t count, const std::vector<PreparedMotion>& motions, const W
 } // namespace
 
 std::vector<Candidate> try_all(const FitResult& before, const std::vector<PreparedMotion>& motions,
-                               const Progress& progress) {
+                               const Progress& progress, Tried tried) {
     std::vector<const Effect*> effects;
-    for (const Effect* effect : catalogue())
-        if (!effect->info().written && cannot_add(*effect, before.model).empty())
-            effects.push_back(effect);
+    for (const Effect* effect : catalogue()) {
+        if (effect->info().written || !cannot_add(*effect, before.model).empty()) continue;
+        const bool solved = effect->shape_keys(EffectTerm{}).empty();
+        if (tried == Tried::all || (tried == Tried::solved) == solved) effects.push_back(effect);
+    }
     std::vector<Candidate> out(effects.size());
     share_out(effects.size(), motions, [&](size_t i, Assembler& assembler, bool reports) {
         if (reports && progress)

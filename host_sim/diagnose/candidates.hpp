@@ -27,9 +27,12 @@ struct Candidate {
 
 using Progress = std::function<void(const std::string& effect, double share)>; // may be empty
 
+// Which effects are tried: those that are only solved for cost a tenth of those that are searched.
+enum class Tried { all, solved, searched };
+
 // In the order of the catalogue. By two threads.
 std::vector<Candidate> try_all(const FitResult& before, const std::vector<PreparedMotion>& motions,
-                               const Progress& progress);
+                               const Progress& progress, Tried tried = Tried::all);
 
 // The best few again, without what the method itself leaves of each (twin.hpp).
 void polish_best(std::vector<Candidate>& candidates, const FitResult& before,

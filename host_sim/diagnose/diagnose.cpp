@@ -35,11 +35,12 @@ bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
     const Structure left = structure_of(best.fit, best.validation_error_after, assembler);
     d.probes = left.probes;
     if (!left.evident) return false;
-    for (const Candidate& second : try_all(best.fit, assembler.motions(), {})) {
-        if (!second.sound) continue;
-        const double ratio = second.validation_error_after / best.validation_error_after;
-        if (1 - ratio * ratio > kAsGood * left.evident->explained) return false;
-    }
+    for (const Tried tried : {Tried::solved, Tried::searched})
+        for (const Candidate& second : try_all(best.fit, assembler.motions(), {}, tried)) {
+            if (!second.sound) continue;
+            const double ratio = second.validation_error_after / best.validation_error_after;
+            if (1 - ratio * ratio > kAsGood * left.evident->explained) return false;
+        }
     return true;
 }
 
