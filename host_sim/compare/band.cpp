@@ -43,8 +43,6 @@ double excited_band(const Capture& capture) {
     return kHarmonics * edge_of_power(acceleration, capture.sample_time_s, kExcited);
 }
 
-double rms(const Vector& x) { return x.size() ? std::sqrt(x.squaredNorm() / double(x.size())) : 0; }
-
 // Noise of the acceleration against the acceleration itself in a band: as torque, what the
 // inertia makes of it.
 double noise_share(const Capture& capture, const Vector& source, double noise, double band_Hz) {

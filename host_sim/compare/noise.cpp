@@ -20,4 +20,8 @@ double sample_noise(const Eigen::VectorXd& signal, double quantum) {
     return *middle / 0.6745 / std::sqrt(20.0);
 }
 
+double rms(const Eigen::VectorXd& x) {
+    return x.size() ? x.norm() / std::sqrt(double(x.size())) : 0;
+}
+
 } // namespace servoid

@@ -9,4 +9,7 @@ namespace servoid {
 // difference over √20, but at least the quantisation noise quantum/√12 where a quantum is known.
 double sample_noise(const Eigen::VectorXd& signal, double quantum);
 
+// Root of the mean square; 0 of nothing.
+double rms(const Eigen::VectorXd& x);
+
 } // namespace servoid

@@ -5,6 +5,7 @@
 #include "compare/one_way.hpp"
 #include "compare/refusals.hpp"
 #include "compare/start_search.hpp"
+#include "compare/uncertainty.hpp"
 #include "effects/catalogue.hpp"
 
 #include <Eigen/Dense>
@@ -22,29 +23,6 @@ using Vector = Eigen::VectorXd;
 constexpr int kMostContexts = 12;       // of a law that depends on the torque
 constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
 constexpr double kTakesWork = 0.02;     // of the power's size: the torque drives the axis
-
-// A shape parameter that the fit may move.
-struct Shape {
-    size_t term;
-    std::string key;
-    double lower, upper;
-    double step = 1e-4;            // relative, for slopes
-    double belief = 0, weight = 0; // what pulls it back: weight·(value − belief)²
-};
-
-std::vector<Shape> shapes_of(const Model& model, size_t first = 0) {
-    std::vector<Shape> out;
-    for (size_t i = first; i < model.effects.size(); ++i) {
-        const EffectTerm& term = model.effects[i];
-        const Effect& effect = *find_effect(term.name);
-        for (const std::string& key : effect.shape_keys(term)) {
-            if (term.is_fixed(key)) continue;
-            for (const ParameterInfo& p : effect.parameters(term))
-                if (p.key == key) out.push_back({i, key, p.lower, p.upper, effect.slope_step()});
-        }
-    }
-    return out;
-}
 
 // One evaluation: the model's shapes as they are, the coefficients solved for.
 struct State {
@@ -75,13 +53,6 @@ State evaluate(const Model& model, Assembler& assembler) {
     else
         s.error = INFINITY;
     return s;
-}
-
-double step_of(const Shape& shape, double value) {
-    // Near zero nothing says how large a shape is that may lie on either side.
-    const double least = shape.lower < 0 ? 1e-6 : 1e-12;
-    const double step = shape.step * std::max(std::abs(value), least);
-    return value + step <= shape.upper ? step : -step;
 }
 
 // How the residual moves with each shape, the coefficients held.
@@ -196,109 +167,17 @@ void refuse_if_alike(const State& s) {
                   "a move in both directions with several speeds and accelerations");
 }
 
+// How the residual moves with everything that is fitted.
+Joint joint_of(const State& s, Assembler& assembler) {
+    Joint out{{}, s.linear.free, shapes_of(s.model)};
+    const Matrix x = pick(s.assembly.columns, out.free);
+    out.slopes.resize(x.rows(), x.cols() + Eigen::Index(out.shapes.size()));
+    out.slopes << x, -shape_slopes(s, out.shapes, assembler);
+    return out;
+}
+
 bool settled(const Vector& before, const Vector& after) {
     return ((after - before).array().abs() <= 1e-6 * after.array().abs()).all();
-}
-
-// All numbers that were fitted, as one vector: free coefficients, then shapes.
-struct Joint {
-    Matrix slopes; // of the residual's negative: columns and shapes
-    std::vector<int> free;
-    std::vector<Shape> shapes;
-};
-
-// The parameters of a term against the joint vector, by differences: amplitude and phase from two
-// coefficients, for instance.
-std::vector<double> term_variance(const FitResult& fitted, size_t term, const Joint& joint,
-                                  const Matrix& covariance) {
-    const EffectTerm& base = fitted.model.effects[term];
-    const Effect& effect = *find_effect(base.name);
-    const auto n = Eigen::Index(joint.free.size() + joint.shapes.size());
-    Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), n);
-    const auto put = [&](Eigen::Index at, const EffectTerm& moved, double step) {
-        Eigen::Index row = 0;
-        for (const auto& [key, value] : base.parameters)
-            slopes(row++, at) = (moved.at(key) - value) / step;
-    };
-    const Vector linear = effect.linear(base);
-    for (size_t i = 0; i < joint.free.size(); ++i) {
-        const Coefficient& c = fitted.coefficients[size_t(joint.free[i])];
-        if (c.term != int(term)) continue;
-        Vector moved = linear;
-        const double step = 1e-6 * std::max(linear.cwiseAbs().maxCoeff(), 1e-12);
-        moved[c.index] += step;
-        EffectTerm other = base;
-        effect.set_linear(other, moved);
-        put(Eigen::Index(i), other, step);
-    }
-    for (size_t i = 0; i < joint.shapes.size(); ++i) {
-        if (joint.shapes[i].term != term) continue;
-        EffectTerm other = base;
-        const double step = step_of(joint.shapes[i], base.at(joint.shapes[i].key));
-        other.parameters[joint.shapes[i].key] += step;
-        put(Eigen::Index(joint.free.size() + i), other, step);
-    }
-    const Matrix out = slopes * covariance * slopes.transpose();
-    std::vector<double> variance;
-    for (Eigen::Index i = 0; i < out.rows(); ++i)
-        variance.push_back(std::max(0.0, out(i, i)));
-    return variance;
-}
-
-bool on_bound(const FitResult& out, int term, int index) {
-    for (size_t i = 0; i < out.coefficients.size(); ++i) {
-        const Coefficient& c = out.coefficients[i];
-        if (c.term == term && c.index == index && !c.fixed &&
-            out.values[Eigen::Index(i)] <= c.lower)
-            return true;
-    }
-    return false;
-}
-
-void list_parameters(FitResult& out, const Joint& joint, const Matrix& cov) {
-    out.parameters.clear(), out.at_bound.clear();
-    FittedParameter inertia{
-        "inertia", Quantity::inertia, {out.values[0], out.std[0]}, out.model.inertia_fixed, false};
-    out.parameters.push_back(inertia);
-    for (size_t t = 0; t < out.model.effects.size(); ++t) {
-        const EffectTerm& term = out.model.effects[t];
-        const Effect& effect = *find_effect(term.name);
-        std::vector<double> variance(term.parameters.size(), 0.0);
-        if (cov.size()) variance = term_variance(out, t, joint, cov);
-        int index = 0;
-        for (const ParameterInfo& p : effect.parameters(term)) {
-            const auto place = std::distance(term.parameters.begin(), term.parameters.find(p.key));
-            FittedParameter one{term_name(out.model, t) + "." + p.key,
-                                p.quantity,
-                                {term.at(p.key), std::sqrt(variance[size_t(place)])},
-                                term.is_fixed(p.key),
-                                index < effect.linear_count(term) && on_bound(out, int(t), index)};
-            if (one.at_bound) out.at_bound.push_back(one.name);
-            out.parameters.push_back(one);
-            ++index;
-        }
-    }
-}
-
-// Standard deviations and covariance from the joint slopes, which may have no columns.
-void add_uncertainty(FitResult& out, const Joint& joint) {
-    out.std = Vector::Zero(out.values.size());
-    out.covariance = Matrix::Zero(out.values.size(), out.values.size());
-    Matrix cov;
-    if (joint.slopes.cols() > 0) {
-        const auto columns = joint.slopes.cols() - Eigen::Index(joint.shapes.size());
-        for (size_t i = 0; i < joint.shapes.size(); ++i)
-            refuse_if_undetermined({out.model, joint.shapes[i].term, joint.shapes[i].key},
-                                   joint.slopes, columns + Eigen::Index(i));
-        cov = block_covariance(joint.slopes, out.residual, out.block);
-        for (size_t i = 0; i < joint.free.size(); ++i) {
-            out.std[joint.free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
-            for (size_t j = 0; j < joint.free.size(); ++j)
-                out.covariance(joint.free[i], joint.free[j]) =
-                    cov(Eigen::Index(i), Eigen::Index(j));
-        }
-    }
-    list_parameters(out, joint, cov);
 }
 
 } // namespace
@@ -322,11 +201,7 @@ Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
     assembler.set_artifact(fitted.artifact);
     assembler.set_context(fitted.model);
     const State s = evaluate(fitted.model, assembler);
-    const Matrix x = pick(s.assembly.columns, s.linear.free);
-    const std::vector<Shape> shapes = shapes_of(s.model);
-    Matrix out(x.rows(), x.cols() + Eigen::Index(shapes.size()));
-    out << x, -shape_slopes(s, shapes, assembler);
-    return out;
+    return joint_of(s, assembler).slopes;
 }
 
 double linear_error(const Model& model, Assembler& assembler) {
@@ -403,14 +278,12 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     out.residual = s.residual, out.torque = s.assembly.torque, out.block = s.assembly.block;
     out.artifact = assembler.artifact();
     out.believed_terms = options.believed_terms;
-    out.free_parameters = int(s.linear.free.size() + shapes_of(s.model).size());
     Joint joint{{}, s.linear.free, shapes_of(s.model)};
     if (options.uncertainty) {
-        const Matrix x = pick(s.assembly.columns, joint.free);
-        joint.slopes.resize(x.rows(), x.cols() + Eigen::Index(joint.shapes.size()));
-        joint.slopes << x, -shape_slopes(s, joint.shapes, assembler);
-        out.condition = condition_of(x);
+        joint = joint_of(s, assembler);
+        out.condition = condition_of(pick(s.assembly.columns, s.linear.free));
     }
+    out.free_parameters = int(joint.free.size() + joint.shapes.size());
     add_uncertainty(out, joint);
     return out;
 }

@@ -4,6 +4,7 @@
 #include "compare/compare.hpp"
 #include "compare/linear_fit.hpp"
 #include "compare/loop_twin.hpp"
+#include "compare/noise.hpp"
 #include "diagnose/add_effect.hpp"
 #include "diagnose/evidence.hpp"
 
@@ -23,8 +24,6 @@ constexpr double kWorthARound = 0.97; // of the error before it
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-
-double rms(const Vector& x) { return x.size() ? x.norm() / std::sqrt(double(x.size())) : 0; }
 
 // A model that is far from the truth may leave its reference: its twin says nothing.
 bool moves_alike(const PreparedMotion& twin, const PreparedMotion& measured) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace servoid {
 
@@ -19,9 +18,7 @@ constexpr double kBeyondNoiseUntold = 0.8; // where no reference was recorded
 constexpr double kFollows = 0.4;           // of a linear dynamics' gain must follow the reference
 constexpr double kAsked = 0.02;            // probability from which a gain is compared with noise's
 constexpr double kPerBound = 4;            // price, as a logarithm
-constexpr double kOddOrder = 2;
-constexpr double kTiedToMotion = 30;  // an alias: only another speed tells
-constexpr double kBeyondDoubt = 0.35; // error after over before: no noise does that
+constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise does that
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
 // are told apart by more than the number of samples.
@@ -100,24 +97,6 @@ double size_z(const Candidate& c) {
     return size.std > 0 ? std::abs(size.value) / size.std : 0;
 }
 
-// On one-way motion at one speed, a line of time at a whole order of the turning is the turning's.
-double time_evidence(const Candidate& c, const std::vector<PreparedMotion>& motions) {
-    if (c.effect != "periodic_disturbance" || motions.size() != 1) return 0;
-    const MotionView& m = motions.front().motion;
-    if (m.kind != Motion::rotary || m.position.size() == 0) return 0;
-    const double travelled = std::abs(m.position[m.size() - 1] - m.position[0]);
-    if (travelled < 0.95 * m.travel()) return 0;
-    const double mean_Hz =
-        travelled / (m.sample_time_s * double(m.size() - 1)) / (2 * std::numbers::pi);
-    for (const FittedParameter& p : c.parameters) {
-        if (p.name != "frequency") continue;
-        const double order = p.estimate.value / mean_Hz;
-        const double within = std::max(0.1, 3 * p.estimate.std / mean_Hz);
-        return std::abs(order - std::round(order)) < within ? -kTiedToMotion : 0;
-    }
-    return 0;
-}
-
 // How many independent residuals the evidence counts. The spectrum of the best residual gives few
 // where something else is still in it; a gain that comes back block after block counts for more.
 double independent_count(const Diagnosis& d, const Candidate& best) {
@@ -127,22 +106,20 @@ double independent_count(const Diagnosis& d, const Candidate& best) {
     return std::min(kMostCount, std::max(effective_count(best.fit.residual), from_blocks));
 }
 
-// What the machine itself turns once in a whole number of times per revolution comes at whole
-// orders; a line that is found anywhere else is a little less likely to be its doing.
-double order_evidence(const Candidate& c, Motion motion) {
-    if (motion != Motion::rotary || (c.effect != "cogging" && c.effect != "torque_ripple"))
-        return 0;
-    for (const FittedParameter& p : c.parameters) {
-        if (p.name != "order") continue;
-        const double within = std::max(2 * p.estimate.std, 0.02);
-        const double off = std::abs(p.estimate.value - std::round(p.estimate.value));
-        if (p.estimate.value < 1.5) return 0; // gravity's
-        return off < within ? -std::log(std::min(1.0, 2 * within)) : -kOddOrder;
-    }
-    return 0;
+// What the effect knows of the values it was found with.
+double known_beforehand(const Candidate& c, const std::vector<MotionView>& views) {
+    Estimates estimates;
+    for (const FittedParameter& p : c.parameters)
+        estimates[p.name] = p.estimate;
+    const Effect& effect = *find_effect(c.effect);
+    const double first = effect.evidence(estimates, views.front());
+    const bool agree = std::all_of(views.begin(), views.end(), [&](const MotionView& view) {
+        return effect.evidence(estimates, view) == first;
+    });
+    return agree ? first : 0; // one capture alone may tell what another cannot
 }
 
-void set_probabilities(Diagnosis& d, const std::vector<PreparedMotion>& motions) {
+void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
     const Candidate* best = nullptr;
     for (const Candidate& c : d.candidates)
         if (c.sound && (!best || c.error_after < best->error_after)) best = &c;
@@ -158,8 +135,7 @@ void set_probabilities(Diagnosis& d, const std::vector<PreparedMotion>& motions)
             v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count,
                              find_effect(c.effect)->search_price() +
                                  kPerBound * newly_bound(d.before, c.fit)) -
-                (c.noise_gain > 0 ? count * c.noise_gain : 0) +
-                order_evidence(c, d.before.model.motion) + time_evidence(c, motions);
+                (c.noise_gain > 0 ? count * c.noise_gain : 0) + known_beforehand(c, views);
         value.push_back(v);
     }
     prefer_simple_names(d, value);
@@ -189,16 +165,16 @@ Candidate* doubtful(Diagnosis& d) {
 } // namespace
 
 void weigh(Diagnosis& d, Assembler& assembler) {
-    set_probabilities(d, assembler.motions());
+    set_probabilities(d, assembler.views());
     while (Candidate* c = doubtful(d)) {
         const auto gain = gain_from_noise(d.before, *find_effect(c->effect), assembler);
         if (!gain) {
             reject_loop_noise(d, assembler);
-            set_probabilities(d, assembler.motions());
+            set_probabilities(d, assembler.views());
             return;
         }
         c->noise_gain = *gain;
-        set_probabilities(d, assembler.motions());
+        set_probabilities(d, assembler.views());
     }
 }
 

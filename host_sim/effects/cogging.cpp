@@ -51,6 +51,10 @@ class Cogging : public OrderEffect {
         return {search, Eigen::VectorXcd::Ones(search.position.size()), {}};
     }
 
+    double evidence(const Estimates& estimates, const MotionView& motion) const override {
+        return whole_order_evidence(estimates, motion);
+    }
+
     Hiding hide(Draw& draw) const override {
         const double order = draw.order(), phase = draw.phase();
         if (order < 2) return {}; // once per revolution is gravity

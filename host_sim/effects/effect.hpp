@@ -134,6 +134,8 @@ struct Estimate {
     double std = 0;
 };
 
+using Estimates = std::map<std::string, Estimate>; // of one term, by key
+
 class Effect {
   public:
     virtual ~Effect() = default;
@@ -184,6 +186,10 @@ class Effect {
 
     // Relative step that shows how the columns move with a shape: larger where they move in jumps.
     virtual double slope_step() const { return 1e-4; }
+
+    // What is known beforehand of the values that were found, as a logarithm of odds: a whole order
+    // speaks for a motor, a line of time that follows the turning against a disturbance.
+    virtual double evidence(const Estimates&, const MotionView&) const { return 0; }
 
     // The price of a search, as the logarithm of how many independent places it looked at.
     virtual double search_price() const { return 1.5 * double(shape_keys(blank()).size()); }

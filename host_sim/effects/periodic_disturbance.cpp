@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+constexpr double kTiedToMotion = 30; // an alias: only another speed tells
+
 class PeriodicDisturbance : public WaveEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
@@ -44,6 +46,18 @@ class PeriodicDisturbance : public WaveEffect {
         out.col(0) = (w * motion.time_s.array()).sin();
         out.col(1) = (w * motion.time_s.array()).cos();
         return out;
+    }
+
+    // On one-way motion a line of time at a whole order of the turning is the turning's.
+    double evidence(const Estimates& estimates, const MotionView& m) const override {
+        if (m.kind != Motion::rotary || m.position.size() == 0) return 0;
+        const double travelled = std::abs(m.position[m.size() - 1] - m.position[0]);
+        if (travelled < 0.95 * m.travel()) return 0;
+        const double turns_Hz = travelled / (m.sample_time_s * double(m.size() - 1)) / kTurn;
+        const Estimate& frequency = estimates.at("frequency");
+        const double order = frequency.value / turns_Hz;
+        const double within = std::max(0.1, 3 * frequency.std / turns_Hz);
+        return std::abs(order - std::round(order)) < within ? -kTiedToMotion : 0;
     }
 
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override {

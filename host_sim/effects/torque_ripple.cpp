@@ -61,16 +61,11 @@ class TorqueRipple : public OrderEffect {
         return {search, search.torque.cast<std::complex<double>>(), {}};
     }
 
-    Hiding hide(Draw& draw) const override {
-        const double order = draw.order(), phase = draw.phase();
-        if (!(order > 0)) return {};
-        return {.at =
-                    [=, this](double s) {
-                        return with({{"fraction", s}, {"order", order}, {"phase", phase}});
-                    },
-                .start = 0.1,
-                .most = 0.6};
+    double evidence(const Estimates& estimates, const MotionView& motion) const override {
+        return whole_order_evidence(estimates, motion);
     }
+
+    Hiding hide(Draw& draw) const override { return hide_fraction(draw); }
 };
 
 } // namespace

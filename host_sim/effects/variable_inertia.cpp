@@ -61,16 +61,7 @@ class VariableInertia : public OrderEffect {
                 half_i * search.velocity.cwiseAbs2().cast<std::complex<double>>()};
     }
 
-    Hiding hide(Draw& draw) const override {
-        const double order = draw.order(), phase = draw.phase();
-        if (!(order > 0)) return {};
-        return {.at =
-                    [=, this](double s) {
-                        return with({{"fraction", s}, {"order", order}, {"phase", phase}});
-                    },
-                .start = 0.1,
-                .most = 0.6};
-    }
+    Hiding hide(Draw& draw) const override { return hide_fraction(draw); }
 };
 
 } // namespace

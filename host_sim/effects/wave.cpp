@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kStepsPerCycle = 4; // of a resolvable order
 constexpr int kMostOrders = 4000;
-constexpr int kStarts = 3; // orders from which a fit begins
+constexpr double kOddOrder = 2; // as a logarithm
+constexpr int kStarts = 3;      // orders from which a fit begins
 
 // Share of the residual's power explained by [Re c, Im c, 1] for a complex column c.
 double explained(const Eigen::VectorXcd& column, const Eigen::VectorXd& residual) {
@@ -79,6 +80,26 @@ std::vector<EffectTerm> OrderEffect::starts(const Search& search) const {
 std::string OrderEffect::implausible(const EffectTerm& term, const MotionView& motion) const {
     const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
     return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
+}
+
+Hiding OrderEffect::hide_fraction(Draw& draw) const {
+    const double order = draw.order(), phase = draw.phase();
+    if (!(order > 0)) return {};
+    return {.at =
+                [=, this](double s) {
+                    return with({{"fraction", s}, {"order", order}, {"phase", phase}});
+                },
+            .start = 0.1,
+            .most = 0.6};
+}
+
+double OrderEffect::whole_order_evidence(const Estimates& estimates,
+                                         const MotionView& motion) const {
+    const Estimate& order = estimates.at("order");
+    if (motion.kind != Motion::rotary || order.value < 1.5) return 0; // once a turn is gravity's
+    const double within = std::max(2 * order.std, 0.02);
+    const double off = std::abs(order.value - std::round(order.value));
+    return off < within ? -std::log(std::min(1.0, 2 * within)) : -kOddOrder;
 }
 
 } // namespace servoid

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "effects/effect.hpp"
+#include "effects/hiding.hpp"
 
 #include <cmath>
 #include <limits>
@@ -64,6 +65,10 @@ class OrderEffect : public WaveEffect {
 
   protected:
     virtual OrderScan scan(const Search& search) const = 0;
+    // A secret whose depth is a share of something, at an order that the motion shows.
+    Hiding hide_fraction(Draw& draw) const;
+    // Whole orders are the machine's own; a line anywhere else is a little less likely so.
+    double whole_order_evidence(const Estimates& estimates, const MotionView& motion) const;
 };
 
 } // namespace servoid

@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "compare/compare.hpp"
+#include "compare/noise.hpp"
 #include "compare/regression.hpp"
 #include "effects/catalogue.hpp"
 
@@ -20,7 +21,6 @@ Eigen::ArrayXd as_array(const std::vector<double>& v) {
     return Eigen::Map<const Eigen::ArrayXd>(v.data(), Eigen::Index(v.size()));
 }
 
-double rms(const Eigen::ArrayXd& x) { return std::sqrt(x.square().mean()); }
 double travel_of(const Eigen::ArrayXd& x) { return x.maxCoeff() - x.minCoeff(); }
 
 double mean_parameter(const Model& model, const std::string& effect) {
@@ -38,7 +38,7 @@ Scenery scenery_of(const Model& model, const PreparedMotion& m) {
     Scenery s;
     s.kind = model.motion;
     s.lowest = m.motion.position.minCoeff(), s.highest = m.motion.position.maxCoeff();
-    s.top_speed = m.motion.top_speed(), s.typical_speed = rms(m.motion.velocity.array());
+    s.top_speed = m.motion.top_speed(), s.typical_speed = rms(m.motion.velocity);
     s.top_torque = m.torque.cwiseAbs().maxCoeff();
     s.duration_s = m.capture->time_s.back();
     s.period_s = m.period_s.value_or(0);
@@ -90,10 +90,10 @@ bool Stage::healthy(const SimulatedRun& run, const EffectTerm& hidden) const {
     if (!position.allFinite() || !torque.allFinite()) return false;
     const double travel = travel_of(position) / travel_of(before);
     if (travel < kLeastTravel || travel > kMostTravel) return false;
-    if (rms(torque) > kMostTorque * rms(torque_before)) return false;
+    if (rms(torque.matrix()) > kMostTorque * rms(torque_before.matrix())) return false;
     const bool limits = axis_of(with_hidden(model_, hidden)).drive.limit > 0;
     if (run.saturated && !limits && !without_.saturated) return false;
-    return rms(position - before) < kMostOff * rms(before - before.mean());
+    return rms((position - before).matrix()) < kMostOff * rms((before - before.mean()).matrix());
 }
 
 std::optional<Strength> Stage::strength(const EffectTerm& hidden) const {
