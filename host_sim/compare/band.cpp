@@ -2,6 +2,7 @@
 #include "common/error.hpp"
 #include "compare/motion.hpp"
 #include "compare/noise.hpp"
+#include "compare/period.hpp"
 #include "compare/spectrum.hpp"
 
 #include <algorithm>
@@ -16,6 +17,9 @@ using Vector = Eigen::VectorXd;
 constexpr double kPowerShare = 0.998; // of the torque lies below half the band
 constexpr double kExcited = 0.995;    // of the power of the reference's acceleration
 constexpr double kHarmonics = 4;      // of what is excited: what friction makes of it
+constexpr double kThird = 1.26;       // third octaves
+constexpr double kWorthBand = 0.005;  // of the torque in a third of an octave
+constexpr double kAboveNoise = 10;    // in power, what repeats over what does not
 constexpr double kNoiseShare = 0.03;  // of the torque may be noise of the acceleration: the inertia
                                       // is then low by at most the square of it, 0.1 %
 constexpr double kHighest = 0.11;     // of the sample rate: room for the smoothing of the motion
@@ -41,6 +45,43 @@ double excited_band(const Capture& capture) {
     const Vector acceleration = r.tail(n) - 2 * r.segment(1, n) + r.head(n);
     if (!(acceleration.squaredNorm() > 0)) return INFINITY;
     return kHarmonics * edge_of_power(acceleration, capture.sample_time_s, kExcited);
+}
+
+// The torque at x and one period later, at x + lag (in samples): their half sum and half
+// difference.
+struct Folded {
+    Vector sum, difference;
+};
+Folded fold(const Vector& torque, double lag) {
+    const auto whole = Eigen::Index(std::floor(lag));
+    const double part = lag - double(whole);
+    const Eigen::Index n = torque.size() - whole - 1;
+    const Vector later =
+        (1 - part) * torque.segment(whole, n) + part * torque.segment(whole + 1, n);
+    return {(torque.head(n) + later) / 2, (torque.head(n) - later) / 2};
+}
+
+// How far up torque comes back with every period, well above what does not: cogging at full speed
+// and the edge of a reversal lie far above a slow sine. 0 where nothing repeats.
+double repeating_band(const Capture& capture, const Vector& torque) {
+    const std::optional<double> period = find_period(capture);
+    if (!period) return 0;
+    const Folded folded = fold(torque, *period / capture.sample_time_s);
+    if (folded.sum.size() < 64) return 0;
+    const Spectrum both = power_spectrum(folded.sum, capture.sample_time_s);
+    const Spectrum noise = power_spectrum(folded.difference, capture.sample_time_s);
+    const double worth = std::pow(kWorthBand * rms(torque), 2);
+    double highest = 0;
+    for (double from = 4 * both.step_Hz; from < kHighest / capture.sample_time_s; from *= kThird) {
+        const auto first = Eigen::Index(std::ceil(from / both.step_Hz));
+        const auto count = Eigen::Index(std::ceil(from * kThird / both.step_Hz)) - first;
+        const Eigen::Index fits = std::min(count, both.power.size() - first);
+        if (fits <= 0) break;
+        const double sum = both.power.segment(first, fits).sum();
+        const double difference = noise.power.segment(first, fits).sum();
+        if (sum - difference > std::max(worth, kAboveNoise * difference)) highest = from * kThird;
+    }
+    return highest;
 }
 
 // Noise of the acceleration against the acceleration itself in a band: as torque, what the
@@ -70,8 +111,8 @@ double choose_band(const Capture& capture, Input input) {
     const double noise = sample_noise(m, quantum);
     const double length_s = double(capture.rows()) * capture.sample_time_s;
     const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
-    const double widest =
-        std::min(2 * edge_of_power(t, capture.sample_time_s, kPowerShare), excited_band(capture));
+    const double widest = std::min(2 * edge_of_power(t, capture.sample_time_s, kPowerShare),
+                                   std::max(excited_band(capture), repeating_band(capture, t)));
     double band = std::clamp(widest, lowest, kHighest / capture.sample_time_s);
     while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare)
         band /= 1.2;

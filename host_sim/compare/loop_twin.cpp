@@ -11,6 +11,8 @@ namespace {
 
 using Values = std::vector<double>;
 
+constexpr int kMostPeriods = 100; // to a row: beyond, a reference that runs straight is none
+
 // Straight line through the first positions: the velocity the record starts with.
 double first_velocity(const Capture& capture) {
     const size_t n = std::min<size_t>(8, capture.rows());
@@ -23,12 +25,37 @@ double first_velocity(const Capture& capture) {
     return (stp - st * sp / m) / (stt - st * st / m);
 }
 
-bool can_simulate(const Model& model, const Capture& capture) {
-    if (!model.controller || capture.position_ref.empty() || !capture.has_position()) return false;
-    if (!capture.uniform || capture.torque_in_ampere || capture.rows() < 8) return false;
-    const double ratio = model.controller->sample_time_s / capture.sample_time_s;
-    return std::abs(ratio - 1) <= 0.01;
+// Control periods to a row, where the loop can be simulated: one, or several of which every last
+// one was recorded.
+std::optional<int> periods_per_row(const Model& model, const Capture& capture) {
+    if (!model.controller || capture.position_ref.empty() || !capture.has_position()) return {};
+    if (!capture.uniform || capture.torque_in_ampere || capture.rows() < 8) return {};
+    const double ratio = capture.sample_time_s / model.controller->sample_time_s;
+    const double whole = std::round(ratio);
+    if (whole < 1 || whole > kMostPeriods || std::abs(ratio - whole) > 0.01) return {};
+    return int(whole);
 }
+
+// The loop along the recorded reference, a row at a time. Between two rows the reference runs
+// straight.
+class Rider {
+  public:
+    Rider(SimulatedDrive& drive, const Values& reference, int periods)
+        : drive_(drive), reference_(reference), periods_(periods) {}
+
+    DriveSample row(size_t i) {
+        const double from = reference_[i], to = reference_[std::min(i + 1, reference_.size() - 1)];
+        const DriveSample first = drive_.step(from);
+        for (int k = 1; k < periods_; ++k)
+            drive_.step(from + (to - from) * k / periods_);
+        return first;
+    }
+
+  private:
+    SimulatedDrive& drive_;
+    const Values& reference_;
+    int periods_;
+};
 
 const Values& torque_of(const Capture& capture) {
     return capture.torque_ref.empty() ? capture.torque : capture.torque_ref;
@@ -77,7 +104,8 @@ Model with_encoder(Model model, const Capture& capture) {
 
 std::optional<Capture> loop_twin(const Model& model, const Capture& capture,
                                  const TwinNoise& noise) {
-    if (!can_simulate(model, capture)) return std::nullopt;
+    const std::optional<int> periods = periods_per_row(model, capture);
+    if (!periods) return std::nullopt;
     const Values& torque = torque_of(capture);
     DriveOptions options;
     options.seed = noise.seed, options.torque_noise = noise.torque;
@@ -89,14 +117,15 @@ std::optional<Capture> loop_twin(const Model& model, const Capture& capture,
     SimulatedDrive drive(with_encoder(model, capture), options, axis);
     drive.set_state(capture.position.front(), first_velocity(capture));
     drive.set_first_torque(capture.position_ref.front(), torque.front());
+    Rider rider(drive, capture.position_ref, *periods);
     for (size_t i = 0; i < before; ++i)
-        drive.step(capture.position_ref[i]);
+        rider.row(i);
     Capture out = capture;
     out.path = capture.path + " (simulated)";
     out.velocity.clear(), out.load_position.clear();
     Values& answer = capture.torque_ref.empty() ? out.torque : out.torque_ref;
     for (size_t i = 0; i < capture.rows(); ++i) {
-        const DriveSample s = drive.step(capture.position_ref[i]);
+        const DriveSample s = rider.row(i);
         answer[i] = counted(s.torque, capture.torque_quantum);
         out.position[i] = s.position;
     }

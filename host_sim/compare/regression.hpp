@@ -37,6 +37,7 @@ struct FitResult {
     Eigen::VectorXd residual, torque;      // on the used points
     std::vector<int> block;                // of the used points, for correlated errors
     Eigen::VectorXd artifact;              // what was taken out of the torque beforehand
+    double doubt = 0; // of the torque: an artifact that may be there as well, and is not confirmed
     int free_parameters = 0;
     size_t believed_terms = SIZE_MAX; // as in FitOptions
 };

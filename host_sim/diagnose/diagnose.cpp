@@ -19,6 +19,7 @@ constexpr double kNearFloor = 1.15; // times the floor: the residual is noise
 constexpr double kColoured = 0.02;  // of the torque: an error that is not white is no noise
 constexpr double kWhite = 0.15;     // of the points are independent; half of them where it is white
 constexpr double kWorthFinishing = 0.3; // probability
+constexpr double kSameTwice = 0.8;      // of the smaller gain of two is common to both
 constexpr double kAsGood = 0.7; // of what a free function explains: then a named law is as good
 
 double family_probability(const Diagnosis& d) {
@@ -29,6 +30,24 @@ double family_probability(const Diagnosis& d) {
     return sum;
 }
 
+// What every axis has: of these two may well explain the same residual in turn.
+bool is_everyday(const std::string& effect) {
+    return effect.starts_with("viscous") || effect.starts_with("coulomb") ||
+           effect == "constant_torque";
+}
+
+// Two rare effects, each of which alone explains what the other does: more likely one law that lies
+// between them than both at once.
+bool same_twice(const Diagnosis& d, const Candidate& first, const Candidate& second) {
+    if (is_everyday(first.effect) || is_everyday(second.effect)) return false;
+    for (const Candidate& alone : d.candidates) {
+        if (alone.effect != second.effect || !alone.sound || &alone == &first) continue;
+        const double one = gain_of(d, first), other = gain_of(d, alone);
+        return one + other - gain_of(d, second) > kSameTwice * std::min(one, other);
+    }
+    return false;
+}
+
 // Something is left that a free function of one variable explains and the catalogue does not.
 bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
     if (best.validation_error_after < d.noise_floor) return false;
@@ -37,7 +56,7 @@ bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
     if (!left.evident) return false;
     for (const Tried tried : {Tried::solved, Tried::searched})
         for (const Candidate& second : try_all(best.fit, assembler.motions(), {}, tried)) {
-            if (!second.sound) continue;
+            if (!second.sound || same_twice(d, best, second)) continue;
             const double ratio = second.validation_error_after / best.validation_error_after;
             if (1 - ratio * ratio > kAsGood * left.evident->explained) return false;
         }
@@ -47,11 +66,12 @@ bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
 // No candidate is worth a name: noise, or something that none of them is.
 Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
     Structure left = structure_of(d.before, d.validation_error_before, assembler);
+    const double own = 2 * std::hypot(kSlight, d.before.doubt); // of the method
     const bool repeats =
-        d.floor_from_repetition && d.error_before > std::hypot(1.5 * d.noise_floor, 2 * kSlight);
+        d.floor_from_repetition && d.error_before > std::hypot(1.5 * d.noise_floor, own);
     d.probes = std::move(left.probes);
     const bool coloured =
-        d.error_before > std::max(3 * d.noise_floor, kColoured) &&
+        d.error_before > std::max({3 * d.noise_floor, kColoured, own}) &&
         effective_count(d.before.residual) < kWhite * double(d.before.residual.size());
     return left.evident || repeats || coloured ? Verdict::unknown : Verdict::adequate;
 }

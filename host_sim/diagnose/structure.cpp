@@ -41,7 +41,7 @@ Structure structure_of(const FitResult& fit, double error, Assembler& assembler)
     const Probe& best = out.probes.front();
     const double least_z = best.explained > kLarge ? kLargeZ : kLeastZ;
     if (best.explained < kLeastShare || best.z < least_z) return out;
-    if (std::sqrt(best.explained) * error < kSlight) return out;
+    if (std::sqrt(best.explained) * error < std::hypot(kSlight, fit.doubt)) return out;
     if (best.explained - share_in_noise(fit, best.name, assembler) < kLeastShare) return out;
     out.evident = best;
     return out;

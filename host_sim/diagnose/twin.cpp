@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kArtifactTwins = 3; // their mean is taken: noise of the sensors is in each
 constexpr int kNoiseTwins = 2;
+constexpr double kExplainsAll = 0.9;  // of the residual's power: no other twin is asked
 constexpr double kWorthARound = 0.97; // of the error before it
 
 using Matrix = Eigen::MatrixXd;
@@ -54,20 +55,39 @@ double robust_rms(const Vector& x) {
     return std::min(rms(x), 1.4826 * size[size.size() / 2]);
 }
 
-// Mean of what the model leaves along twins of its own; empty where there are none.
-Vector artifact_of(const Model& model, const std::vector<PreparedMotion>& motions, double noise) {
+// What the model leaves along twins of its own: their mean, and the power of what chance leaves in
+// it. Empty where there are none. Without noise all twins are the same.
+struct Left {
+    Vector mean;
+    double chance = 0; // ‖·‖²
+};
+
+Left left_by_twins(const Model& model, const std::vector<PreparedMotion>& motions, double noise) {
+    const int count = noise > 0 ? kArtifactTwins : 1;
     Vector sum;
-    for (int i = 0; i < kArtifactTwins; ++i) {
+    double powers = 0;
+    for (int i = 0; i < count; ++i) {
         const auto twins = make_twins(model, motions, noise, 101 + unsigned(i));
         if (!twins) return {};
         const Vector one = residual_of(model, *twins);
         sum = i ? Vector(sum + one) : one;
+        powers += one.squaredNorm();
     }
-    return sum / kArtifactTwins;
+    Left out{sum / count, 0};
+    if (count > 1) out.chance = (powers / count - out.mean.squaredNorm()) / (count - 1);
+    return out;
 }
 
-// How much of the artifact the residual shows, beyond what the fit could take up: 0 … 1.
-double share_shown(const Vector& residual, const Vector& artifact, const Matrix& slopes) {
+// An artifact as far as the residual shows it, beyond what the fit could take up.
+struct Shown {
+    Vector artifact;
+    double explained = 0; // of the residual's power
+    double doubt = 0;     // rms of what of it the residual does not confirm
+};
+
+Shown as_shown(const Vector& residual, const Left& by_twins, const Matrix& slopes) {
+    const Vector& artifact = by_twins.mean;
+    if (artifact.size() == 0) return {};
     const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
     const Matrix x = slopes * scale.asDiagonal();
     Matrix gram = x.transpose() * x;
@@ -75,8 +95,26 @@ double share_shown(const Vector& residual, const Vector& artifact, const Matrix&
     const Eigen::LDLT<Matrix> solver(gram);
     const Vector left = artifact - x * solver.solve(x.transpose() * artifact);
     const Vector seen = residual - x * solver.solve(x.transpose() * residual);
-    const double power = left.squaredNorm();
-    return power > 0 ? std::clamp(left.dot(seen) / power, 0.0, 1.0) : 0;
+    const double power = left.squaredNorm(), together = left.dot(seen);
+    const double share = power > 0 ? std::clamp(together / power, 0.0, 1.0) : 0;
+    const double explained = share * (2 * together - share * power);
+    const double doubt =
+        std::sqrt((1 - share) * std::max(0.0, power - by_twins.chance) / double(left.size()));
+    return {share * artifact, explained / std::max(1e-300, seen.squaredNorm()), doubt};
+}
+
+// The artifact along twins with all of the residual as their noise, or along one without any: a
+// record with little noise sticks and slips in its own places only.
+Shown artifact_in(const FitResult& fitted, Assembler& assembler) {
+    const Vector raw = fitted.residual + fitted.artifact;
+    const Matrix slopes = joint_slopes(fitted, assembler);
+    const auto along = [&](double noise) {
+        return as_shown(raw, left_by_twins(fitted.model, assembler.motions(), noise), slopes);
+    };
+    const Shown quiet = along(0);
+    if (quiet.explained > kExplainsAll) return quiet;
+    const Shown noisy = along(robust_rms(fitted.residual));
+    return quiet.explained > noisy.explained ? quiet : noisy;
 }
 
 // A fit may end where no axis is (a resonance below its antiresonance): it has no twin.
@@ -91,17 +129,16 @@ std::optional<Capture> simulated(const Model& model, const Capture& recorded,
 
 // One round: the artifact of the fitted model out of the torque, and the fit again.
 std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assembler) {
-    const Vector artifact =
-        artifact_of(fitted.model, assembler.motions(), robust_rms(fitted.residual));
-    if (artifact.size() == 0) return std::nullopt;
-    const Vector raw = fitted.residual + fitted.artifact;
-    const double share = share_shown(raw, artifact, joint_slopes(fitted, assembler));
-    assembler.set_artifact(share * artifact);
+    const Shown shown = artifact_in(fitted, assembler);
+    if (shown.artifact.size() == 0) return std::nullopt;
+    assembler.set_artifact(shown.artifact);
     FitOptions options;
     options.believed_terms = fitted.believed_terms;
     options.start_values = false;
     try {
-        return fit(fitted.model, assembler, options);
+        FitResult out = fit(fitted.model, assembler, options);
+        out.doubt = shown.doubt / rms(out.torque);
+        return out;
     } catch (const Refusal&) {
         return std::nullopt;
     }
@@ -131,11 +168,11 @@ FitResult without_artifact(const FitResult& fitted, Assembler& assembler, int ro
     FitResult best = fitted;
     for (int i = 0; i < rounds; ++i) {
         std::optional<FitResult> next = freed_once(best, assembler);
-        if (!next || next->torque_error > kWorthARound * best.torque_error) {
-            if (next && next->torque_error < best.torque_error) best = std::move(*next);
-            break;
-        }
-        best = std::move(*next);
+        if (!next) break;
+        const double gain = next->torque_error / best.torque_error;
+        best.doubt = next->doubt;
+        if (gain < 1) best = std::move(*next);
+        if (gain > kWorthARound) break;
     }
     assembler.set_artifact(best.artifact);
     return best;

@@ -25,10 +25,10 @@ constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise 
 constexpr double kMostCount = 150;
 
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
-// Errors are told apart down to half of what is slight.
-double log_evidence(const FitResult& fit, double error, double count, double price) {
-    return -count * std::log(std::hypot(error, kSlight / 2)) -
-           0.5 * fit.free_parameters * std::log(count) - price;
+// Errors are told apart down to `least`.
+double log_evidence(const FitResult& fit, double error, double count, double least) {
+    return -count * std::log(std::hypot(error, least)) -
+           0.5 * fit.free_parameters * std::log(count);
 }
 
 // Asymmetric Coulomb friction is Coulomb friction and a constant torque: where one of them alone
@@ -126,15 +126,16 @@ void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
     if (!best) return;
     const double count = independent_count(d, *best);
     const double floor = 0.3 * d.noise_floor; // an error below the noise is luck, not evidence
-    double none = log_evidence(d.before, std::max(floor, d.error_before), count, 0);
+    // Half of what is slight, and what the method may itself leave of each.
+    const double least = std::hypot(kSlight / 2, std::max(d.before.doubt, best->fit.doubt));
+    const double none = log_evidence(d.before, std::max(floor, d.error_before), count, least);
     double top = none;
     std::vector<double> value;
     for (const Candidate& c : d.candidates) {
         double v = -INFINITY;
         if (c.sound)
-            v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count,
-                             find_effect(c.effect)->search_price() +
-                                 kPerBound * newly_bound(d.before, c.fit)) -
+            v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count, least) -
+                find_effect(c.effect)->search_price() - kPerBound * newly_bound(d.before, c.fit) -
                 (c.noise_gain > 0 ? count * c.noise_gain : 0) + known_beforehand(c, views);
         value.push_back(v);
     }
