@@ -18,6 +18,8 @@ constexpr double kWidest = 0.3;         // of the sample rate: the widest band o
 constexpr double kVelocityNoise = 0.01; // of the rms velocity: what the widest band may let through
 constexpr double kOversampling = 4.0;   // grid points per period of the band edge
 constexpr double kRestShare = 0.05;     // a point that sees more rest than this is not used
+constexpr double kHeldShare = 0.5;      // the same for what was taken out of it
+constexpr double kShortestHeld = 0.02;  // periods of the band edge: shorter ones make no difference
 
 using Vector = Eigen::VectorXd;
 
@@ -69,6 +71,35 @@ double smoothing_band(const Capture& capture, const Vector& source, double noise
     return std::max(smoothing, kSmoothing * band_Hz);
 }
 
+// What is taken out of the acceleration where the axis is held. Not smoothed: a kernel would smear
+// the jump at either end over it.
+Vector held_acceleration(const Vector& source, int order, Eigen::Index first, const Vector& held,
+                         double step_s) {
+    Vector out(held.size());
+    for (Eigen::Index i = 0; i < held.size(); ++i) {
+        const Eigen::Index k = std::clamp<Eigen::Index>(first + i, 1, source.size() - 2);
+        out[i] = held[i] *
+                 (order == 0 ? (source[k + 1] - 2 * source[k] + source[k - 1]) / step_s
+                             : (source[k + 1] - source[k - 1]) / 2) /
+                 step_s;
+    }
+    return out;
+}
+
+void find_held(const Vector& source, int order, PreparedMotion& out) {
+    const double step = out.motion.sample_time_s, grain = out.position_noise;
+    if (order != 0) return; // a velocity that is zero says nothing of where
+    const double within = std::max(2.5 * out.motion.position_quantum, 6 * grain);
+    const double width = std::max(0.5 / out.smoothing_Hz, 8 * step);
+    out.held_weight = {held_intervals(source, step, within, kShortestHeld / out.band_Hz),
+                       0.5 / out.smoothing_Hz, width};
+    out.held.resize(0), out.held_acceleration.resize(0);
+    if (out.held_weight.empty()) return;
+    out.held = out.held_weight.at(out.motion_start_s, step, out.motion.size());
+    const auto first = Eigen::Index(std::lround(out.motion_start_s / step));
+    out.held_acceleration = held_acceleration(source, order, first, out.held, step);
+}
+
 void differentiate(const Capture& capture, PreparedMotion& out) {
     const double step = capture.sample_time_s;
     const Vector source =
@@ -94,6 +125,7 @@ void differentiate(const Capture& capture, PreparedMotion& out) {
     motion.position = order == 0 ? smooth.apply(source, grid, 0) : Vector();
     out.motion_start_s = grid.start_s;
     motion.velocity_noise = out.position_noise * smooth.noise_gain(1 - order);
+    find_held(source, order, out);
 }
 
 // Instants that the band limit can reach; a whole number of them to a known period.
@@ -123,13 +155,15 @@ std::vector<bool> moving(const PreparedMotion& prepared) {
             ++end;
         const bool rests = end - i >= shortest;
         for (; i < end; ++i)
-            rest[i] = rests ? 1 : 0;
+            rest[i] = rests && !(prepared.held.size() && prepared.held[i] > 0) ? 1 : 0;
         if (i < motion.size()) rest[i++] = 0;
     }
-    const Vector share = prepared.band_limit(rest);
+    const Vector share = prepared.smooth(rest);
+    const Vector held =
+        prepared.held.size() ? prepared.smooth(prepared.held) : Vector::Zero(share.size());
     std::vector<bool> used(size_t(share.size()));
     for (Eigen::Index k = 0; k < share.size(); ++k)
-        used[size_t(k)] = share[k] < kRestShare;
+        used[size_t(k)] = share[k] < kRestShare && held[k] < kHeldShare;
     return used;
 }
 
@@ -164,9 +198,9 @@ void fill_grid(PreparedMotion& out, Input input) {
     out.asked = {on_even_grid(capture, *choice.values), capture.sample_time_s, choice.held,
                  capture.torque_delay_s};
     out.torque = out.band_limit(out.asked);
-    if (capture.has_position()) out.position = out.band_limit(out.motion.position);
-    out.velocity = out.band_limit(out.motion.velocity);
-    out.acceleration = out.band_limit(out.motion.acceleration);
+    if (capture.has_position()) out.position = out.smooth(out.motion.position);
+    out.velocity = out.smooth(out.motion.velocity);
+    out.acceleration = out.smooth(out.motion.acceleration);
 }
 
 } // namespace
@@ -184,18 +218,33 @@ TorqueChoice choose_torque(const Capture& capture, Input input) {
     return {&capture.torque_ref, capture.ref_held, Input::reference, "torque_ref"};
 }
 
-Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const {
+Eigen::VectorXd PreparedMotion::smooth(const Eigen::VectorXd& signal) const {
     Grid local = grid;
     local.start_s -= motion_start_s;
+    return low_pass->apply(signal, local);
+}
+
+Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const {
     Eigen::MatrixXd out(grid.count, columns.cols());
     for (Eigen::Index c = 0; c < columns.cols(); ++c)
-        out.col(c) = low_pass->apply(columns.col(c), local);
+        out.col(c) = held.size() ? smooth(columns.col(c).cwiseProduct((1 - held.array()).matrix()))
+                                 : smooth(columns.col(c));
     return out;
 }
 
+Eigen::VectorXd PreparedMotion::band_limit(const Eigen::VectorXd& needed, double inertia) const {
+    if (!held.size()) return smooth(needed);
+    const Vector free = (1 - held.array()).matrix();
+    const Vector other = (needed - inertia * motion.acceleration).cwiseProduct(free);
+    return smooth(other + inertia * (motion.acceleration - held_acceleration));
+}
+
 Eigen::VectorXd PreparedMotion::band_limit(const TorqueSignal& signal) const {
-    const double hold_s = signal.held ? signal.sample_time_s / 2 : 0;
-    return low_pass->apply(signal.samples, grid, 0, signal.delay_s + hold_s);
+    const double shift_s = signal.delay_s + (signal.held ? signal.sample_time_s / 2 : 0);
+    if (!held.size()) return low_pass->apply(signal.samples, grid, 0, shift_s);
+    const Vector taken = held_weight.at(shift_s, signal.sample_time_s, signal.samples.size());
+    return low_pass->apply(signal.samples.cwiseProduct((1 - taken.array()).matrix()), grid, 0,
+                           shift_s);
 }
 
 Eigen::Index PreparedMotion::used_count() const {
