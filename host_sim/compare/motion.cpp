@@ -239,12 +239,24 @@ Eigen::VectorXd PreparedMotion::band_limit(const Eigen::VectorXd& needed, double
     return smooth(other + inertia * (motion.acceleration - held_acceleration));
 }
 
+namespace {
+
+// When the middle of the first sample acts.
+double shift_of(const TorqueSignal& signal) {
+    return signal.delay_s + (signal.held ? signal.sample_time_s / 2 : 0);
+}
+
+} // namespace
+
+Eigen::VectorXd PreparedMotion::sliding(const TorqueSignal& signal) const {
+    if (!held.size()) return signal.samples;
+    const Vector taken =
+        held_weight.at(shift_of(signal), signal.sample_time_s, signal.samples.size());
+    return signal.samples.cwiseProduct((1 - taken.array()).matrix());
+}
+
 Eigen::VectorXd PreparedMotion::band_limit(const TorqueSignal& signal) const {
-    const double shift_s = signal.delay_s + (signal.held ? signal.sample_time_s / 2 : 0);
-    if (!held.size()) return low_pass->apply(signal.samples, grid, 0, shift_s);
-    const Vector taken = held_weight.at(shift_s, signal.sample_time_s, signal.samples.size());
-    return low_pass->apply(signal.samples.cwiseProduct((1 - taken.array()).matrix()), grid, 0,
-                           shift_s);
+    return low_pass->apply(sliding(signal), grid, 0, shift_of(signal));
 }
 
 Eigen::Index PreparedMotion::used_count() const {

@@ -49,6 +49,7 @@ struct PreparedMotion {
     // The same for a torque that holds inertia · acceleration.
     Eigen::VectorXd band_limit(const Eigen::VectorXd& needed, double inertia) const;
     // A measured torque likewise: a held one acts half a sample later.
+    Eigen::VectorXd sliding(const TorqueSignal& signal) const; // its samples without held instants
     Eigen::VectorXd band_limit(const TorqueSignal& signal) const;
     // Any signal of the motion, all of it.
     Eigen::VectorXd smooth(const Eigen::VectorXd& signal) const;

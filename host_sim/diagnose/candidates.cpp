@@ -18,6 +18,9 @@ namespace {
 constexpr int kMostRounds = 4;
 constexpr size_t kMostPolished = 6;
 constexpr double kChanges = 0.9;      // error after over before
+constexpr double kLittleTorque = 0.7; // of what was asked arrives; the error is a share of that
+constexpr double kAnyVariation = 0.3; // of the torque about its mean arrives at least
+constexpr double kAnyway = 0.5;       // error after over before: it explains what arrives
 constexpr double kWorthPolishing = 2; // times the least held-out error
 
 // A gain of the torque is taken up by inertia and friction together: never a finding unless one of
@@ -47,6 +50,18 @@ bool must_be_known(const FittedParameter& p) {
            !p.name.ends_with("rest_position") && !p.fixed;
 }
 
+double variation(const Eigen::VectorXd& torque) {
+    return (torque.array() - torque.mean()).matrix().norm();
+}
+
+// The error is a share of the torque that arrives. A law that lets little of it through has to
+// explain what arrives, and something has to arrive.
+bool far_less_torque(const Candidate& c, const FitResult& before) {
+    if (c.fit.torque.norm() >= kLittleTorque * before.torque.norm()) return false;
+    return c.error_after > kAnyway * before.torque_error ||
+           variation(c.fit.torque) < kAnyVariation * variation(before.torque);
+}
+
 // What keeps a fitted candidate from being an answer, or "".
 std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& before,
                      const Assembler& assembler) {
@@ -61,8 +76,7 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
     for (const MotionView& view : assembler.views())
         if (why = effect.implausible(c.fit.model.effects.back(), view); why.empty()) break;
     if (!why.empty()) out = why;
-    if (c.fit.torque.norm() < 0.7 * before.torque.norm())
-        out = "far less torque than moved the axis";
+    if (far_less_torque(c, before)) out = "far less torque than moved the axis";
     if (is_harmonic(c, assembler.motions()))
         out = "a harmonic of the repeated move: another period shows it";
     if (c.error_after >= before.torque_error) out = "it does not help";
@@ -73,7 +87,12 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
 void describe(Candidate& c, const Effect& effect, const FitResult& before, Assembler& assembler) {
     c.error_after = c.fit.torque_error;
     c.blocks_after = held_out_blocks(c.fit, assembler);
-    c.validation_error_after = error_of(c.blocks_after);
+    // A descent that stopped at a bend may predict better than it fits, by its tangents: no merit.
+    const double predicted = error_of(c.blocks_after);
+    if (predicted < c.error_after)
+        for (double& power : c.blocks_after)
+            power *= std::pow(c.error_after / predicted, 2);
+    c.validation_error_after = std::max(predicted, c.error_after);
     const std::string prefix = effect.info().name;
     c.parameters.clear();
     for (const FittedParameter& p : c.fit.parameters) {

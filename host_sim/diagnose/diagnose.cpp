@@ -1,10 +1,12 @@
 #include "diagnose/diagnose.hpp"
 
+#include "common/error.hpp"
 #include "diagnose/advice.hpp"
 #include "diagnose/evidence.hpp"
 #include "diagnose/structure.hpp"
 #include "diagnose/twin.hpp"
 #include "diagnose/weigh.hpp"
+#include "effects/catalogue.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +32,31 @@ double family_probability(const Diagnosis& d) {
     return sum;
 }
 
-// What every axis has: of these two may well explain the same residual in turn.
-bool is_everyday(const std::string& effect) {
-    return effect.starts_with("viscous") || effect.starts_with("coulomb") ||
-           effect == "constant_torque";
+std::optional<Everyday> everyday_of(const FitResult& before, Assembler& assembler) {
+    Model model = before.model;
+    for (const char* name : {"viscous", "coulomb", "constant_torque"}) {
+        const Effect& effect = *find_effect(name);
+        if (!cannot_add(effect, before.model).empty()) continue;
+        EffectTerm term;
+        term.name = name, term.parameters[effect.info().parameters[0].key] = 0;
+        model.effects.push_back(term);
+    }
+    if (model.effects.size() < before.model.effects.size() + 2) return std::nullopt;
+    assembler.set_artifact(before.artifact);
+    FitOptions options;
+    options.believed_terms = before.believed_terms;
+    options.start_values = false;
+    try {
+        Everyday out{fit(model, assembler, options), 0};
+        out.error = std::max(out.fit.torque_error, held_out_error(out.fit, assembler));
+        return out;
+    } catch (const Refusal&) { // one way only: the same thing twice
+        return std::nullopt;
+    }
 }
 
-// Two rare effects, each of which alone explains what the other does: more likely one law that lies
-// between them than both at once.
+// Two effects that not every axis has, each of which alone explains what the other does: more
+// likely one law that lies between them than both at once.
 bool same_twice(const Diagnosis& d, const Candidate& first, const Candidate& second) {
     if (is_everyday(first.effect) || is_everyday(second.effect)) return false;
     for (const Candidate& alone : d.candidates) {
@@ -93,6 +112,11 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
 
 } // namespace
 
+bool is_everyday(const std::string& effect) {
+    return effect.starts_with("viscous") || effect.starts_with("coulomb") ||
+           effect == "constant_torque";
+}
+
 bool is_richer_form(const std::string& rich, const std::string& simple) {
     return rich == simple + "_asymmetric" || (rich == "presliding" && simple == "coulomb");
 }
@@ -130,6 +154,7 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     for (const PreparedMotion& m : motions)
         d.band_Hz = std::max(d.band_Hz, m.band_Hz);
     d.candidates = try_all(d.before, motions, options.progress);
+    d.everyday = everyday_of(d.before, assembler);
     polish_best(d.candidates, d.before, motions);
     weigh(d, assembler);
     if (d.candidates.front().sound && d.candidates.front().probability > kWorthFinishing) {

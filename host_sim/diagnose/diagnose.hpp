@@ -25,6 +25,15 @@ const char* verdict_name(Verdict verdict);
 // A richer form of another effect: not a rival of it, but the same with more freedom.
 bool is_richer_form(const std::string& rich, const std::string& simple);
 
+// Viscous and Coulomb friction, a constant torque: what every axis has.
+bool is_everyday(const std::string& effect);
+
+// The model with all of them that it lacks, where it lacks two or more.
+struct Everyday {
+    FitResult fit;
+    double error = 0; // held out
+};
+
 struct Diagnosis {
     Verdict verdict = Verdict::insufficient;
     FitResult before; // the model as it is, every parameter fitted again
@@ -32,6 +41,7 @@ struct Diagnosis {
     std::vector<double> blocks_before; // held_out_blocks of `before`
     double noise_floor = 0;
     bool floor_from_repetition = false;
+    std::optional<Everyday> everyday;
     std::vector<Candidate> candidates;  // best first, every effect that was tried
     std::vector<Probe> probes;          // what the residual depends on, catalogue or not
     std::optional<NextExperiment> next; // what tells the rivals of an ambiguous verdict apart

@@ -72,19 +72,23 @@ Matrix hats(const Vector& x, const Vector& factor) {
 // No function of the torque: it would explain itself.
 struct Basis {
     const char* name;
+    Vector factor; // alone it says nothing of the variable
     Matrix columns;
 };
 
+Basis basis(const char* name, const Vector& x, const Vector& factor) {
+    return {name, factor, hats(x, factor)};
+}
+
 std::vector<Basis> bases(const Scene& s) {
     const Vector one = Vector::Ones(s.time.size()), sign = s.velocity.cwiseSign();
-    std::vector<Basis> out = {{"velocity", hats(s.velocity, one)},
-                              {"time", hats(s.time, one)},
-                              {"acceleration × time", hats(s.time, s.acceleration)},
-                              {"direction × time", hats(s.time, sign)}};
+    std::vector<Basis> out = {basis("velocity", s.velocity, one), basis("time", s.time, one),
+                              basis("acceleration × time", s.time, s.acceleration),
+                              basis("direction × time", s.time, sign)};
     if (s.position.squaredNorm() > 0) {
-        out.push_back({"position", hats(s.position, one)});
-        out.push_back({"acceleration × position", hats(s.position, s.acceleration)});
-        out.push_back({"direction × position", hats(s.position, sign)});
+        out.push_back(basis("position", s.position, one));
+        out.push_back(basis("acceleration × position", s.position, s.acceleration));
+        out.push_back(basis("direction × position", s.position, sign));
     }
     return out;
 }
@@ -94,10 +98,12 @@ std::vector<Basis> bases(const Scene& s) {
 std::vector<Probe> probe_residual(const FitResult& fit, Assembler& assembler) {
     const Matrix base = joint_slopes(fit, assembler);
     const Scene scene = scene_of(assembler.motions());
-    const std::vector<double> before = held_out_power(base, fit.residual, assembler.blocks());
-    const double total = std::accumulate(before.begin(), before.end(), 0.0);
     std::vector<Probe> out;
     for (const Basis& b : bases(scene)) {
+        Matrix alone(base.rows(), base.cols() + 1);
+        alone << base, b.factor;
+        const std::vector<double> before = held_out_power(alone, fit.residual, assembler.blocks());
+        const double total = std::accumulate(before.begin(), before.end(), 0.0);
         if (b.columns.cols() == 0 || !(total > 0)) continue;
         Matrix slopes(base.rows(), base.cols() + b.columns.cols());
         slopes << base, b.columns;

@@ -33,7 +33,28 @@ Model with_plain_laws(Model model, const MotionView& motion) {
             term.parameters[p.key] = 0;
         model.effects.push_back(term);
     }
+    // Friction that bends before it slides turns late, over whatever way: Dahl's law for several,
+    // which together are any hysteresis (Prandtl, Ishlinskii).
+    for (double share : {0.3, 0.1, 0.03, 0.01, 0.003}) {
+        const double way = share * motion.travel();
+        if (!(way > 3 * motion.position_quantum)) continue;
+        EffectTerm term;
+        term.name = "presliding";
+        term.parameters = {{"torque", 1.0}, {"stiffness", 1 / way}};
+        model.effects.push_back(term);
+    }
     return model;
+}
+
+// The acceleration's own derivative, by differences.
+Vector slope_of(const MotionView& motion) {
+    const Eigen::Index n = motion.size();
+    Vector out = Vector::Zero(n);
+    if (n > 2)
+        out.segment(1, n - 2) =
+            (motion.acceleration.tail(n - 2) - motion.acceleration.head(n - 2)) /
+            (2 * motion.sample_time_s);
+    return out;
 }
 
 double reach_of(const std::vector<PreparedMotion>& motions) {
@@ -107,10 +128,7 @@ TorqueMatch::TorqueMatch(const Model& believed, Assembler& assembler)
     jerk_.resize(torque_.size());
     Eigen::Index row = 0;
     for (const Part& part : parts_) {
-        Grid local = part.grid;
-        local.start_s -= part.motion->motion_start_s;
-        const Vector jerk =
-            part.motion->low_pass->apply(part.motion->motion.acceleration, local, 1);
+        const Vector jerk = part.motion->band_limit(Matrix(slope_of(part.motion->motion)));
         for (Eigen::Index k : part.points)
             jerk_[row++] = jerk[k];
     }
@@ -121,11 +139,12 @@ Vector TorqueMatch::torque_at(double delay_s) const {
     Eigen::Index row = 0;
     for (const Part& part : parts_) {
         TorqueSignal signal = part.asked;
+        signal.delay_s += delay_s;
         const double hold_s = signal.held ? signal.sample_time_s / 2 : 0;
+        const Vector samples = part.motion->sliding(signal);
         for (Eigen::Index k : part.points) {
             const Grid one{part.grid.at(k), part.grid.step_s, 1};
-            out[row++] = part.motion->low_pass->apply(signal.samples, one, 0,
-                                                      signal.delay_s + delay_s + hold_s)[0];
+            out[row++] = part.motion->low_pass->apply(samples, one, 0, signal.delay_s + hold_s)[0];
         }
     }
     return out;

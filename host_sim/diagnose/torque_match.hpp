@@ -22,9 +22,9 @@ struct Match {
 };
 
 // The columns are those of the model as it is believed, and of viscous and Coulomb friction, a
-// constant torque, a spring and gravity where it has none: what is commonly missing is not taken
-// for a capture that is wrong. A column that the others make up is left out. Cost: some 1e-3 s a
-// match.
+// constant torque, a spring, gravity and hysteresis where it has none: what is commonly missing is
+// not taken for a capture that is wrong. A column that the others make up is left out. Cost: some
+// 1e-3 s a match.
 class TorqueMatch {
   public:
     TorqueMatch(const Model& model, Assembler& assembler);

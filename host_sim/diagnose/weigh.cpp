@@ -31,18 +31,37 @@ double log_evidence(const FitResult& fit, double error, double count, double lea
            0.5 * fit.free_parameters * std::log(count);
 }
 
-// Asymmetric Coulomb friction is Coulomb friction and a constant torque: where one of them alone
-// explains the residual about as well, the simpler name wins.
+// Asymmetric Coulomb friction is Coulomb friction and a constant torque, and a stiff bristle is
+// Coulomb friction: where one of them alone explains the residual about as well, the simpler name
+// wins.
+bool is_simpler(const std::string& simple, const std::string& rich) {
+    if (simple == "coulomb") return rich == "coulomb_asymmetric" || rich == "presliding";
+    return simple == "constant_torque" && rich == "coulomb_asymmetric";
+}
+
 void prefer_simple_names(const Diagnosis& d, std::vector<double>& evidence) {
     for (size_t rich = 0; rich < d.candidates.size(); ++rich) {
-        if (d.candidates[rich].effect != "coulomb_asymmetric") continue;
         for (size_t simple = 0; simple < d.candidates.size(); ++simple) {
             const Candidate& c = d.candidates[simple];
-            if (!c.sound || (c.effect != "constant_torque" && c.effect != "coulomb")) continue;
+            if (!c.sound || !is_simpler(c.effect, d.candidates[rich].effect)) continue;
             if (c.validation_error_after < 1.1 * d.candidates[rich].validation_error_after)
                 evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
         }
     }
+}
+
+// What every axis has and this model has not, all together: each of them is as good a first step as
+// they are together. A bristle that bends far would else pass for viscous and Coulomb friction.
+void credit_everyday(const Diagnosis& d, double least, double count,
+                     std::vector<double>& evidence) {
+    if (!d.everyday) return;
+    double best = -INFINITY;
+    for (size_t i = 0; i < evidence.size(); ++i)
+        if (is_everyday(d.candidates[i].effect)) best = std::max(best, evidence[i]);
+    const double together = log_evidence(d.everyday->fit, d.everyday->error, count, least);
+    if (!std::isfinite(best) || !(together > best)) return;
+    for (size_t i = 0; i < evidence.size(); ++i)
+        if (is_everyday(d.candidates[i].effect)) evidence[i] += together - best;
 }
 
 // Linear dynamics between asked torque and motion: what noise in a closed loop imitates.
@@ -139,6 +158,7 @@ void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
                 (c.noise_gain > 0 ? count * c.noise_gain : 0) + known_beforehand(c, views);
         value.push_back(v);
     }
+    credit_everyday(d, least, count, value);
     prefer_simple_names(d, value);
     for (double v : value)
         top = std::max(top, v);

@@ -114,7 +114,7 @@ class ElasticLoadEffect : public Effect {
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
         if (term.at("resonance_frequency") <= term.at("antiresonance_frequency"))
             return "a resonance below its antiresonance is no elastic load";
-        return term.at("antiresonance_frequency") > 2.5 * motion.band_Hz
+        return term.at("antiresonance_frequency") > 5 * motion.band_Hz
                    ? "its frequencies lie far above the compared band"
                    : "";
     }

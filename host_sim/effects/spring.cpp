@@ -35,10 +35,12 @@ class Spring : public Effect {
 
     bool depends_on_model(const EffectTerm&) const override { return true; }
     int linear_count(const EffectTerm&) const override { return 2; }
-    Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
+    // Beside a constant torque the place of rest says nothing new, and stays as it is.
+    Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
         Eigen::MatrixXd out(motion.size(), 2);
-        out.col(0) = motion.position;
+        const double rest = motion.has_constant ? term.at("rest_position") : 0;
+        out.col(0) = motion.position.array() - rest;
         out.col(1).setConstant(motion.has_constant ? 0 : 1);
         return out;
     }

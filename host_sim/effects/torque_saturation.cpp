@@ -3,6 +3,7 @@
 #include "effects/hiding.hpp"
 #include "plant/axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,17 @@ namespace servoid {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// What the torque reaches, but for two instants in a hundred: noise of the acceleration has peaks.
+double usual_top(const Eigen::VectorXd& torque) {
+    std::vector<double> size;
+    for (double t : torque)
+        size.push_back(std::abs(t));
+    if (size.empty()) return 0;
+    const auto at = size.begin() + long(0.98 * double(size.size() - 1));
+    std::nth_element(size.begin(), at, size.end());
+    return *at;
+}
 
 class TorqueSaturation : public Effect {
     const EffectInfo& info() const override {
@@ -44,7 +56,7 @@ class TorqueSaturation : public Effect {
     }
 
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override {
-        return term.at("limit") < 0.4 * motion.torque.cwiseAbs().maxCoeff()
+        return term.at("limit") < 0.4 * usual_top(motion.torque)
                    ? "far below the torque that moved the axis"
                    : "";
     }
