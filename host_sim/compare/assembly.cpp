@@ -206,7 +206,7 @@ const Matrix& Assembler::inertia_of(const Model& model) {
         Vector inertia = views_[i].acceleration;
         for (const EffectTerm& term : model.effects)
             effect_of(term).shape_inertia(term, views_[i], inertia);
-        append_rows(all, used_rows(i, motions_[i].band_limit(inertia, 1)));
+        append_rows(all, used_rows(i, motions_[i].band_limit(Matrix(inertia))));
     }
     return cache_.emplace(key, std::move(all)).first->second;
 }

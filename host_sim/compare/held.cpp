@@ -6,7 +6,9 @@ namespace servoid {
 
 namespace {
 
-constexpr double kLonger = 3;     // than the quickest of its neighbours: no steady motion
+// Than the quickest of its neighbours. A turning point passes a way in 7.5 times what the third
+// stretch of that way beside it takes: it is not held.
+constexpr double kLonger = 8;
 constexpr size_t kNeighbours = 3; // on each side
 
 struct Stretch {
@@ -51,7 +53,9 @@ std::vector<Interval> held_intervals(const Eigen::VectorXd& position, double ste
         const double around = std::isfinite(before) && std::isfinite(after)
                                   ? std::max(before, after)
                                   : std::min(before, after);
-        if (all[k].length() < kLonger * around || all[k].length() * step_s < shortest_s) continue;
+        // A passage is known to a sample.
+        if (all[k].length() < kLonger * (around + 1) || all[k].length() * step_s < shortest_s)
+            continue;
         out.push_back({double(all[k].from) * step_s, double(all[k].to - 1) * step_s});
     }
     return out;

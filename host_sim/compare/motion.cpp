@@ -19,6 +19,7 @@ constexpr double kVelocityNoise = 0.01; // of the rms velocity: what the widest 
 constexpr double kOversampling = 4.0;   // grid points per period of the band edge
 constexpr double kRestShare = 0.05;     // a point that sees more rest than this is not used
 constexpr double kHeldShare = 0.5;      // the same for what was taken out of it
+constexpr double kLeastFree = 0.05;     // weight below which an acceleration is as good as none
 constexpr double kShortestHeld = 0.02;  // periods of the band edge: shorter ones make no difference
 
 using Vector = Eigen::VectorXd;
@@ -71,33 +72,32 @@ double smoothing_band(const Capture& capture, const Vector& source, double noise
     return std::max(smoothing, kSmoothing * band_Hz);
 }
 
-// What is taken out of the acceleration where the axis is held. Not smoothed: a kernel would smear
-// the jump at either end over it.
-Vector held_acceleration(const Vector& source, int order, Eigen::Index first, const Vector& held,
-                         double step_s) {
-    Vector out(held.size());
-    for (Eigen::Index i = 0; i < held.size(); ++i) {
-        const Eigen::Index k = std::clamp<Eigen::Index>(first + i, 1, source.size() - 2);
-        out[i] = held[i] *
-                 (order == 0 ? (source[k + 1] - 2 * source[k] + source[k - 1]) / step_s
-                             : (source[k + 1] - source[k - 1]) / 2) /
-                 step_s;
+// The acceleration of a motion without its held instants: smoothed after they are taken out, so
+// that the jump at either end is not smeared over them.
+void take_out_held(const Vector& source, int order, const LowPass& smooth, const Grid& grid,
+                   PreparedMotion& out) {
+    const double step = out.motion.sample_time_s;
+    Vector taken = out.held_weight.at(0, step, source.size());
+    for (Eigen::Index i = 0; i < taken.size(); ++i) {
+        const Eigen::Index k = std::clamp<Eigen::Index>(i, 1, source.size() - 2);
+        taken[i] *= (order == 0 ? (source[k + 1] - 2 * source[k] + source[k - 1]) / step
+                                : (source[k + 1] - source[k - 1]) / 2) /
+                    step;
     }
-    return out;
+    out.held = out.held_weight.at(grid.start_s, step, grid.count);
+    const Vector free = (1 - out.held.array()).max(kLeastFree).matrix();
+    out.motion.acceleration =
+        (out.motion.acceleration - smooth.apply(taken, grid)).cwiseQuotient(free);
 }
 
 void find_held(const Vector& source, int order, PreparedMotion& out) {
-    const double step = out.motion.sample_time_s, grain = out.position_noise;
+    const double step = out.motion.sample_time_s;
+    out.held_weight = {}, out.held.resize(0);
     if (order != 0) return; // a velocity that is zero says nothing of where
-    const double within = std::max(2.5 * out.motion.position_quantum, 6 * grain);
+    const double within = std::max(2.5 * out.motion.position_quantum, 6 * out.position_noise);
     const double width = std::max(0.5 / out.smoothing_Hz, 8 * step);
     out.held_weight = {held_intervals(source, step, within, kShortestHeld / out.band_Hz),
                        0.5 / out.smoothing_Hz, width};
-    out.held.resize(0), out.held_acceleration.resize(0);
-    if (out.held_weight.empty()) return;
-    out.held = out.held_weight.at(out.motion_start_s, step, out.motion.size());
-    const auto first = Eigen::Index(std::lround(out.motion_start_s / step));
-    out.held_acceleration = held_acceleration(source, order, first, out.held, step);
 }
 
 void differentiate(const Capture& capture, PreparedMotion& out) {
@@ -126,6 +126,7 @@ void differentiate(const Capture& capture, PreparedMotion& out) {
     out.motion_start_s = grid.start_s;
     motion.velocity_noise = out.position_noise * smooth.noise_gain(1 - order);
     find_held(source, order, out);
+    if (!out.held_weight.empty()) take_out_held(source, order, smooth, grid, out);
 }
 
 // Instants that the band limit can reach; a whole number of them to a known period.
@@ -230,13 +231,6 @@ Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const
         out.col(c) = held.size() ? smooth(columns.col(c).cwiseProduct((1 - held.array()).matrix()))
                                  : smooth(columns.col(c));
     return out;
-}
-
-Eigen::VectorXd PreparedMotion::band_limit(const Eigen::VectorXd& needed, double inertia) const {
-    if (!held.size()) return smooth(needed);
-    const Vector free = (1 - held.array()).matrix();
-    const Vector other = (needed - inertia * motion.acceleration).cwiseProduct(free);
-    return smooth(other + inertia * (motion.acceleration - held_acceleration));
 }
 
 namespace {

@@ -29,25 +29,22 @@ struct PreparedMotion {
     Eigen::VectorXd position, velocity, acceleration; // on the grid
     std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
     double band_Hz = 0;
-    double smoothing_Hz = 0;           // band of `motion`
-    HeldWeight held_weight;            // where friction holds the axis: no law is asked there
-    Eigen::VectorXd held;              // the same on `motion`; empty where it never does
-    Eigen::VectorXd held_acceleration; // held · the unsmoothed acceleration, on `motion`
-    std::optional<double> period_s;    // stated or found
-    double position_noise = 0;         // standard deviation per sample, rad or m
-    double acceleration_noise = 0;     // of the band-limited acceleration
-    double velocity_noise = 0;         // of the band-limited velocity
-    double torque_noise = 0;           // of the band-limited torque, from its quantisation
-    Input input = Input::reference;    // which one was used
-    std::string torque_name;           // "torque_ref", "torque"
+    double smoothing_Hz = 0;        // band of `motion`
+    HeldWeight held_weight;         // where friction holds the axis: no law is asked there
+    Eigen::VectorXd held;           // the same on `motion`; empty where it never does
+    std::optional<double> period_s; // stated or found
+    double position_noise = 0;      // standard deviation per sample, rad or m
+    double acceleration_noise = 0;  // of the band-limited acceleration
+    double velocity_noise = 0;      // of the band-limited velocity
+    double torque_noise = 0;        // of the band-limited torque, from its quantisation
+    Input input = Input::reference; // which one was used
+    std::string torque_name;        // "torque_ref", "torque"
 
     TorqueSignal asked; // as recorded, for effects between asked and delivered torque
 
     // Torques of laws at the sample rate (rows: motion.size()) through the band limit, on the grid;
     // those of held instants are left out.
     Eigen::MatrixXd band_limit(const Eigen::MatrixXd& columns) const;
-    // The same for a torque that holds inertia · acceleration.
-    Eigen::VectorXd band_limit(const Eigen::VectorXd& needed, double inertia) const;
     // A measured torque likewise: a held one acts half a sample later.
     Eigen::VectorXd sliding(const TorqueSignal& signal) const; // its samples without held instants
     Eigen::VectorXd band_limit(const TorqueSignal& signal) const;

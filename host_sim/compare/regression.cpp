@@ -294,7 +294,7 @@ FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions) {
 }
 
 Vector model_torque(const Model& model, const PreparedMotion& motion) {
-    return motion.band_limit(in_context(model, motion.motion).torque, model.inertia);
+    return motion.band_limit(Matrix(in_context(model, motion.motion).torque));
 }
 
 Vector delivered_torque(const Model& model, const PreparedMotion& motion) {

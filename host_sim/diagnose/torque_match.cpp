@@ -35,7 +35,7 @@ Model with_plain_laws(Model model, const MotionView& motion) {
     }
     // Friction that bends before it slides turns late, over whatever way: Dahl's law for several,
     // which together are any hysteresis (Prandtl, Ishlinskii).
-    for (double share : {0.3, 0.1, 0.03, 0.01, 0.003}) {
+    for (double share : {0.05, 0.02, 0.008, 0.003, 0.001}) {
         const double way = share * motion.travel();
         if (!(way > 3 * motion.position_quantum)) continue;
         EffectTerm term;
