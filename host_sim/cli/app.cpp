@@ -1,6 +1,7 @@
 #include "cli/app.hpp"
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "servoid/sid_version.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,17 @@ std::string Output::bold(const std::string& text) const {
 
 std::string Output::dim(const std::string& text) const {
     return colour ? "\033[2m" + text + "\033[0m" : text;
+}
+
+bool speaks_utf8() {
+    if (!isatty(STDOUT_FILENO)) return false;
+    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+        const char* value = std::getenv(name);
+        if (!value || !*value) continue; // the first one that is set decides
+        const std::string lower = lower_case(value);
+        return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
+    }
+    return false;
 }
 
 void add_output_options(CLI::App& verb, Output& output) {

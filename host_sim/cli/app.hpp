@@ -32,6 +32,9 @@ struct Output {
     std::string dim(const std::string& text) const;
 };
 
+// A terminal that says it speaks UTF-8; a pipe or a file gets pictures in ASCII.
+bool speaks_utf8();
+
 // Options of every verb that reads captures.
 struct CaptureOptions {
     std::vector<std::string> files;

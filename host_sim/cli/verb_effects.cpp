@@ -7,10 +7,8 @@
 #include "report/text_plot.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -24,18 +22,6 @@ struct Options {
 };
 
 Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-// A terminal that says it speaks UTF-8; a pipe or a file gets ASCII.
-bool speaks_utf8() {
-    if (!isatty(STDOUT_FILENO)) return false;
-    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-        const char* value = std::getenv(name);
-        if (!value || !*value) continue; // the first one that is set decides
-        const std::string lower = lower_case(value);
-        return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
-    }
-    return false;
-}
 
 Json picture_json(const Signature& s) {
     return {{"x", s.x},           {"y", s.y},           {"x_name", s.x_name},

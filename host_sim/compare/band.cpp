@@ -100,7 +100,7 @@ double noise_share(const Capture& capture, const Vector& source, double noise, d
 
 } // namespace
 
-double choose_band(const Capture& capture, Input input) {
+Band choose_band(const Capture& capture, Input input) {
     const std::vector<double>& torque = *choose_torque(capture, input).values;
     const std::vector<double>& motion =
         capture.has_position() ? capture.position : capture.velocity;
@@ -111,14 +111,21 @@ double choose_band(const Capture& capture, Input input) {
     const double noise = sample_noise(m, quantum);
     const double length_s = double(capture.rows()) * capture.sample_time_s;
     const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
-    const double widest = std::min(2 * edge_of_power(t, capture.sample_time_s, kPowerShare),
-                                   std::max(excited_band(capture), repeating_band(capture, t)));
-    double band = std::clamp(widest, lowest, kHighest / capture.sample_time_s);
+    const double highest = kHighest / capture.sample_time_s;
+    const double of_torque = 2 * edge_of_power(t, capture.sample_time_s, kPowerShare);
+    const double excited = excited_band(capture), repeating = repeating_band(capture, t);
+    const double known = std::max(excited, repeating);
+    const double widest = std::min(of_torque, known);
+    double band = std::clamp(widest, lowest, highest);
+    BandLimit limit = known < of_torque ? BandLimit::excitation : BandLimit::torque;
+    if (limit == BandLimit::excitation && repeating > excited) limit = BandLimit::repetition;
+    if (widest > highest) limit = BandLimit::sample_rate;
+    if (widest < lowest) limit = BandLimit::record;
     while (band > 1.2 * lowest && noise_share(capture, m, noise, band) > kNoiseShare)
-        band /= 1.2;
+        band /= 1.2, limit = BandLimit::noise;
     // Two significant digits: a band is stated and repeated by people.
     const double unit = std::pow(10, std::floor(std::log10(band)) - 1);
-    return std::max(unit, std::floor(band / unit) * unit);
+    return {std::max(unit, std::floor(band / unit) * unit), limit};
 }
 
 } // namespace servoid

@@ -1,5 +1,7 @@
 #include "compare/compare.hpp"
 
+#include "compare/by_value.hpp"
+#include "compare/lag.hpp"
 #include "compare/loop_view.hpp"
 #include "compare/regression.hpp"
 
@@ -32,15 +34,19 @@ Powers powers_of(const PreparedMotion& m, const Vector& residual) {
 // One capture with what the model leaves of it.
 struct Part {
     const PreparedMotion* motion;
-    Vector residual;
+    Vector model_torque, residual;
     Powers powers;
+    NoiseFloor floor;
 };
 
 std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions) {
     std::vector<Part> out;
     for (const PreparedMotion& m : motions) {
-        out.push_back({&m, residual_torque(model, m), {}});
-        out.back().powers = powers_of(m, out.back().residual);
+        Part part{&m, model_torque(model, m), delivered_torque(model, m), {}, {}};
+        part.residual -= part.model_torque;
+        part.powers = powers_of(m, part.residual);
+        part.floor = noise_floor(m, part.residual, model.inertia);
+        out.push_back(std::move(part));
     }
     return out;
 }
@@ -54,12 +60,12 @@ Powers sum_of(const std::vector<Part>& parts) {
     return total;
 }
 
-NoiseFloor pooled_floor(const std::vector<Part>& parts, double inertia) {
+NoiseFloor pooled_floor(const std::vector<Part>& parts) {
     NoiseFloor out;
     out.from_repetition = true;
     double noise = 0, repeatable = 0;
     for (const Part& part : parts) {
-        const NoiseFloor floor = noise_floor(*part.motion, part.residual, inertia);
+        const NoiseFloor& floor = part.floor;
         noise += floor.ratio * floor.ratio * part.powers.torque;
         repeatable += floor.repeatable_share * part.powers.residual;
         out.from_repetition = out.from_repetition && floor.from_repetition;
@@ -68,6 +74,20 @@ NoiseFloor pooled_floor(const std::vector<Part>& parts, double inertia) {
     const Powers total = sum_of(parts);
     out.ratio = std::sqrt(noise / total.torque);
     out.repeatable_share = out.from_repetition ? repeatable / total.residual : NAN;
+    return out;
+}
+
+std::vector<ResidualView> views_of(const std::vector<Part>& parts) {
+    std::vector<ResidualView> out;
+    for (const Part& part : parts)
+        out.push_back({*part.motion, part.residual, part.model_torque});
+    return out;
+}
+
+std::vector<PeriodicResidual> periodic_of(const std::vector<Part>& parts) {
+    std::vector<PeriodicResidual> out;
+    for (const Part& part : parts)
+        out.push_back({*part.motion, part.residual, part.floor.periods});
     return out;
 }
 
@@ -111,7 +131,7 @@ std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
 }
 
 NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions) {
-    return pooled_floor(parts_of(model, motions), model.inertia);
+    return pooled_floor(parts_of(model, motions));
 }
 
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions) {
@@ -124,10 +144,17 @@ Comparison compare(const Model& model, const std::vector<PreparedMotion>& motion
               double(part.powers.used) / double(total.used));
         out.samples += long(m.capture->rows());
         out.duration_s += m.capture->time_s.back() - m.capture->time_s.front();
-        out.band_Hz = std::max(out.band_Hz, m.band_Hz);
+        if (m.band_Hz > out.band_Hz)
+            out.band_Hz = m.band_Hz, out.band_limited_by = m.band_limited_by;
         out.torque_name = m.torque_name;
+        out.torque_unit = unit_of(Quantity::torque, m.motion.kind, m.capture->torque_in_ampere);
     }
-    out.floor = pooled_floor(parts, model.inertia);
+    const std::vector<Regime> by_value = where_by_value(views_of(parts));
+    out.where.insert(out.where.end(), by_value.begin(), by_value.end());
+    out.lines = lines_of(periodic_of(parts));
+    out.lag_s = lag_of_torque(model, motions);
+    out.floor = pooled_floor(parts);
+    out.residual_rms = std::sqrt(total.residual / double(total.used));
     out.torque_error = std::sqrt(total.residual / total.torque);
     out.samples_used_share = double(total.used) / double(total.all);
     out.loop = loop_of_all(model, motions);

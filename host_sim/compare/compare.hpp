@@ -1,6 +1,7 @@
 // How far a model and its measurements are apart, and where.
 #pragma once
 
+#include "compare/lines.hpp"
 #include "compare/noise_floor.hpp"
 #include "compare/where.hpp"
 #include "model/model.hpp"
@@ -21,12 +22,16 @@ struct Comparison {
     double torque_error = 0; // ‖T − T̂‖/‖T‖, both through the same band limit
     NoiseFloor floor;
     std::optional<LoopError> loop; // none without a controller or a position reference
-    std::vector<Regime> where;
+    std::vector<Regime> where;     // where_it_fails, then where_by_value
+    std::optional<Lines> lines;    // none without a periodic reference of odd lines
+    std::optional<Estimate> lag_s; // of the torque, lag.hpp; none where the motion does not tell
+    double residual_rms = 0;       // N·m or N, of the used samples
     long samples = 0;              // rows of the captures
     double samples_used_share = 0; // of the compared instants; the rest stands still
     double duration_s = 0;
-    double band_Hz = 0; // the highest of the captures
-    std::string torque_name;
+    double band_Hz = 0;                           // the highest of the captures
+    BandLimit band_limited_by = BandLimit::asked; // of that capture
+    std::string torque_name, torque_unit;
 };
 
 // The noise floor of all captures together, for the residual that this model leaves.

@@ -269,7 +269,10 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     PreparedMotion out;
     out.capture = &capture;
     const double top = highest_band(capture.sample_time_s);
-    out.band_Hz = options.band_Hz ? *options.band_Hz : choose_band(capture, options.input);
+    const Band band = options.band_Hz ? Band{*options.band_Hz, BandLimit::asked}
+                                      : choose_band(capture, options.input);
+    out.band_Hz = band.edge_Hz;
+    out.band_limited_by = band.limit;
     if (out.band_Hz > top)
         throw UsageError(fmt::format("--band: {:.4g} Hz is above what {} can show, {:.4g} Hz",
                                      out.band_Hz, capture.path, top));

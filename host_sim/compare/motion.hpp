@@ -13,6 +13,14 @@ namespace servoid {
 
 enum class Input { automatic, reference, measured };
 
+// What set the upper edge of the band.
+enum class BandLimit { asked, torque, excitation, repetition, noise, record, sample_rate };
+
+struct Band {
+    double edge_Hz = 0;
+    BandLimit limit = BandLimit::asked;
+};
+
 struct MotionOptions {
     std::optional<double> band_Hz; // else chosen from the data
     Input input = Input::automatic;
@@ -29,6 +37,7 @@ struct PreparedMotion {
     Eigen::VectorXd position, velocity, acceleration; // on the grid
     std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
     double band_Hz = 0;
+    BandLimit band_limited_by = BandLimit::asked;
     double smoothing_Hz = 0;        // band of `motion`
     HeldWeight held_weight;         // where friction holds the axis: no law is asked there
     Eigen::VectorXd held;           // the same on `motion`; empty where it never does
@@ -62,7 +71,7 @@ PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture);
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency
 // where the noise of the measured position, as torque, reaches a small part of the torque itself,
 // and within four times what the reference excites.
-double choose_band(const Capture& capture, Input input);
+Band choose_band(const Capture& capture, Input input);
 
 // The torque column that is used, and whether it is a held reference.
 struct TorqueChoice {

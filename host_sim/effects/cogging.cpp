@@ -20,7 +20,7 @@ class Cogging : public OrderEffect {
             .reference = "Holtz, Springob, IEEE TIE 43, 1996",
             .parameters = {{"amplitude", Quantity::torque, 0, kInf, "of the sine"},
                            {"order", Quantity::per_rev, 1e-9, kInf,
-                            "cycles per revolution or per metre"},
+                            "cycles per revolution; per metre or `period` in m on a linear axis"},
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
@@ -33,14 +33,14 @@ class Cogging : public OrderEffect {
 
     void add_to(AxisDescription& axis, const EffectTerm& term) const override {
         const double a = term.at("amplitude"), phase = term.at("phase");
-        const double k = wave_number(term.at("order"), axis.kind);
+        const double k = wave_number(cycles_of(term), axis.kind);
         axis.opposing.push_back(
             [=](const AxisPoint& p) { return a * std::sin(k * p.position + phase); });
     }
 
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
-        const double k = wave_number(term.at("order"), motion.kind);
+        const double k = wave_number(cycles_of(term), motion.kind);
         Eigen::MatrixXd out(motion.size(), 2);
         out.col(0) = (k * motion.position.array()).sin();
         out.col(1) = (k * motion.position.array()).cos();

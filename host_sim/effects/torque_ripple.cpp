@@ -20,7 +20,7 @@ class TorqueRipple : public OrderEffect {
             .reference = "Holtz, Springob, IEEE TIE 43, 1996; Mattavelli et al., IEEE TIA 41, 2005",
             .parameters = {{"fraction", Quantity::ratio, 0, 0.6, "of the torque"},
                            {"order", Quantity::per_rev, 1e-9, kInf,
-                            "cycles per revolution or per metre"},
+                            "cycles per revolution; per metre or `period` in m on a linear axis"},
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
@@ -36,7 +36,7 @@ class TorqueRipple : public OrderEffect {
 
     void add_to(AxisDescription& axis, const EffectTerm& term) const override {
         const double a = term.at("fraction"), phase = term.at("phase");
-        const double k = wave_number(term.at("order"), axis.kind);
+        const double k = wave_number(cycles_of(term), axis.kind);
         axis.drive.ripple.push_back(
             [=](double position) { return a * std::sin(k * position + phase); });
     }
@@ -45,7 +45,7 @@ class TorqueRipple : public OrderEffect {
     // T + a T sin(nθ+φ) = needed, so T = needed − a T sin(nθ+φ).
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
-        const double k = wave_number(term.at("order"), motion.kind);
+        const double k = wave_number(cycles_of(term), motion.kind);
         Eigen::MatrixXd out(motion.size(), 2);
         out.col(0) = -motion.torque.array() * (k * motion.position.array()).sin();
         out.col(1) = -motion.torque.array() * (k * motion.position.array()).cos();

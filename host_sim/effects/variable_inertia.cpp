@@ -21,7 +21,7 @@ class VariableInertia : public OrderEffect {
             .reference = "Goldstein, Classical Mechanics; Kakizaki, Otani, Kogure 2002",
             .parameters = {{"fraction", Quantity::ratio, 0, 0.95, "of the inertia"},
                            {"order", Quantity::per_rev, 1e-9, kInf,
-                            "cycles per revolution or per metre"},
+                            "cycles per revolution; per metre or `period` in m on a linear axis"},
                            {"phase", Quantity::angle, -kInf, kInf, "at position zero"}},
             .replaces = {},
             .needs = {},
@@ -35,14 +35,14 @@ class VariableInertia : public OrderEffect {
 
     void add_to(AxisDescription& axis, const EffectTerm& term) const override {
         axis.inertia_wave = InertiaWave{term.at("fraction"),
-                                        wave_number(term.at("order"), axis.kind), term.at("phase")};
+                                        wave_number(cycles_of(term), axis.kind), term.at("phase")};
     }
 
     bool depends_on_model(const EffectTerm&) const override { return true; }
     // J a cos(x+φ) − ½ J κ sin(x+φ) v², x = κθ, split into cos φ and sin φ.
     Eigen::MatrixXd columns(const EffectTerm& term, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
-        const double k = wave_number(term.at("order"), motion.kind);
+        const double k = wave_number(cycles_of(term), motion.kind);
         const Eigen::ArrayXd c = (k * motion.position.array()).cos();
         const Eigen::ArrayXd s = (k * motion.position.array()).sin();
         const Eigen::ArrayXd a = motion.acceleration.array();

@@ -25,7 +25,31 @@ double explained(const Eigen::VectorXcd& column, const Eigen::VectorXd& residual
     return all - residual.sum() * residual.sum() / n;
 }
 
+// What stands for `order` in a term that holds a period.
+const ParameterInfo& period_info() {
+    static const ParameterInfo info = {"period", Quantity::position, 1e-9,
+                                       std::numeric_limits<double>::infinity(), "of one cycle"};
+    return info;
+}
+
+bool holds_period(const EffectTerm& term) { return term.parameters.contains(period_info().key); }
+
 } // namespace
+
+double cycles_of(const EffectTerm& term) {
+    return holds_period(term) ? 1 / term.at(period_info().key) : term.at("order");
+}
+
+std::vector<ParameterInfo> OrderEffect::parameters(const EffectTerm& term) const {
+    std::vector<ParameterInfo> out = info().parameters;
+    for (ParameterInfo& p : out)
+        if (p.key == "order" && holds_period(term)) p = period_info();
+    return out;
+}
+
+std::vector<std::string> OrderEffect::shape_keys(const EffectTerm& term) const {
+    return {holds_period(term) ? period_info().key : "order"};
+}
 
 std::vector<double> strongest_orders(const OrderScan& scan, int most) {
     const Search& s = scan.search;
@@ -78,7 +102,7 @@ std::vector<EffectTerm> OrderEffect::starts(const Search& search) const {
 }
 
 std::string OrderEffect::implausible(const EffectTerm& term, const MotionView& motion) const {
-    const double cycles = wave_number(term.at("order"), motion.kind) * motion.travel() / kTurn;
+    const double cycles = wave_number(cycles_of(term), motion.kind) * motion.travel() / kTurn;
     return cycles < kFewestCycles ? "the travel holds less than one and a half cycles" : "";
 }
 
@@ -95,8 +119,9 @@ Hiding OrderEffect::hide_fraction(Draw& draw) const {
 
 double OrderEffect::whole_order_evidence(const Estimates& estimates,
                                          const MotionView& motion) const {
+    if (motion.kind != Motion::rotary) return 0;
     const Estimate& order = estimates.at("order");
-    if (motion.kind != Motion::rotary || order.value < 1.5) return 0; // once a turn is gravity's
+    if (order.value < 1.5) return 0; // once a turn is gravity's
     const double within = std::max(2 * order.std, 0.02);
     const double off = std::abs(order.value - std::round(order.value));
     return off < within ? -std::log(std::min(1.0, 2 * within)) : -kOddOrder;

@@ -41,6 +41,10 @@ inline double order_of(double wave_number, Motion kind) {
     return kind == Motion::rotary ? wave_number : wave_number / kTurn;
 }
 
+// Cycles per revolution or per metre of a term. On a linear axis a term may hold the length of a
+// cycle, `period` in m, in place of `order`.
+double cycles_of(const EffectTerm& term);
+
 // Orders (as κ) at which `pair(κ, i)` = {sine-like, cosine-like} weights explain most of the
 // residual: local maxima of the explained power over the band of κ that the travel can resolve and
 // the speed lets through. Strongest first, at most `most`.
@@ -58,7 +62,8 @@ constexpr double kFewestCycles = 1.5;
 // A sine of position whose order is searched for: cogging, ripple, an inertia that varies.
 class OrderEffect : public WaveEffect {
   public:
-    std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"order"}; }
+    std::vector<ParameterInfo> parameters(const EffectTerm& term) const override;
+    std::vector<std::string> shape_keys(const EffectTerm& term) const override;
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override;
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override;

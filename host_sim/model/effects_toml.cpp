@@ -40,17 +40,36 @@ void check_bounds(const TomlView& table, const ParameterInfo& parameter, double 
                                   " is out of bounds; expected " + allowed);
 }
 
-EffectTerm read_term(const TomlView& table, const EffectInfo& info) {
+// `period` says on a linear axis what `order` says: one of them.
+void check_period(const TomlView& table, Motion motion) {
+    if (motion != Motion::linear)
+        table.fail("period", table.full("period") + " is for a linear axis; expected order, in "
+                                                    "cycles per revolution");
+    if (table.has("order"))
+        table.fail("order", table.full("order") + " and period say the same; keep one of them");
+}
+
+// The parameters that a table of this effect shall have: an effect may look at those it has.
+std::vector<ParameterInfo> expected_in(const TomlView& table, const Effect& effect) {
+    EffectTerm as_it_stands;
+    for (const auto& key : table.keys())
+        as_it_stands.parameters[key] = 0;
+    return effect.parameters(as_it_stands);
+}
+
+EffectTerm read_term(const TomlView& table, const Effect& effect, Motion motion) {
+    const std::vector<ParameterInfo> expected = expected_in(table, effect);
     std::vector<std::string> keys;
-    for (const auto& parameter : info.parameters)
+    for (const auto& parameter : expected)
         keys.push_back(parameter.key);
+    if (std::find(keys.begin(), keys.end(), "period") != keys.end()) check_period(table, motion);
     auto known = keys;
     known.emplace_back("fixed");
     table.allow_only(known);
 
     EffectTerm term;
-    term.name = info.name;
-    for (const auto& parameter : info.parameters) {
+    term.name = effect.info().name;
+    for (const auto& parameter : expected) {
         const double value = table.number(parameter.key);
         check_bounds(table, parameter, value);
         term.parameters[parameter.key] = value;
@@ -106,25 +125,27 @@ void read_customs(const TomlView& customs, const Effect* effect, std::vector<Fou
     }
 }
 
-void read_array(const TomlView& effects, const Effect* effect, std::vector<FoundTerm>& found) {
+void read_array(const TomlView& effects, const Effect* effect, Motion motion,
+                std::vector<FoundTerm>& found) {
     const std::string& name = effect->info().name;
     if (!effect->info().repeatable)
         effects.fail(name, "[[" + effects.full(name) + "]]: " + name +
                                " can be in a model only once; write it as a table [" +
                                effects.full(name) + "]");
     for (const TomlView& table : tables_of(effects, name))
-        found.push_back({table, effect, read_term(table, effect->info())});
+        found.push_back({table, effect, read_term(table, *effect, motion)});
 }
 
-void read_one(const TomlView& effects, const std::string& name, std::vector<FoundTerm>& found) {
+void read_one(const TomlView& effects, const std::string& name, Motion motion,
+              std::vector<FoundTerm>& found) {
     const Effect* effect = find_effect(name);
     if (!effect || effect->info().name != name) // "custom.x" in quotes is one key
         effects.fail(name,
                      "unknown effect " + in_quotes(name) + suggestion(name, catalogue_names()));
     if (name == custom_name) return read_customs(effects.table(name), effect, found);
-    if (effects.raw().get(name)->is_array()) return read_array(effects, effect, found);
+    if (effects.raw().get(name)->is_array()) return read_array(effects, effect, motion, found);
     const TomlView table = effects.table(name);
-    found.push_back({table, effect, read_term(table, effect->info())});
+    found.push_back({table, effect, read_term(table, *effect, motion)});
 }
 
 // Whether the terms may stand together; each is asked as if it were added last.
@@ -158,7 +179,7 @@ std::vector<std::string> read_fixed(const TomlView& table,
 void read_effects(const TomlView& effects, Model& model) {
     std::vector<FoundTerm> found;
     for (const auto& name : effects.keys())
-        read_one(effects, name, found);
+        read_one(effects, name, model.motion, found);
     std::stable_sort(found.begin(), found.end(), [](const FoundTerm& a, const FoundTerm& b) {
         return a.table.raw().source().begin < b.table.raw().source().begin;
     });

@@ -123,7 +123,7 @@ std::string effect_text(const EffectTerm& term, bool repeated) {
     TableText table(repeatable ? "[[effects." + term.name + "]]" : "[effects." + term.name + "]");
     // In the catalogue's order, which is the order of the law; the map would sort by name.
     if (effect)
-        for (const auto& parameter : effect->info().parameters)
+        for (const auto& parameter : effect->parameters(term))
             if (term.parameters.contains(parameter.key))
                 table.number(parameter.key, term.at(parameter.key));
     table.fixed(term.fixed);

@@ -35,6 +35,17 @@ Experiment sine(const Keys& k) {
     return e;
 }
 
+// The frequency of which all lines are multiples: 5, 15, 25 Hz repeat after 0.2 s, not 0.1 s.
+// Euclid's algorithm, with a rest that is only rounding taken for none.
+double base_frequency(double from_Hz, double step_Hz) {
+    double a = from_Hz, b = step_Hz;
+    while (b > 1e-6 * step_Hz) {
+        const double rest = std::abs(a - b * std::round(a / b));
+        a = b, b = rest;
+    }
+    return a;
+}
+
 Experiment multisine(const Keys& k) {
     struct Line {
         double w, phase;
@@ -46,8 +57,8 @@ Experiment multisine(const Keys& k) {
         lines.push_back({kTurn * f, phase(random)});
     const double a = k.at("amplitude") / std::sqrt(double(lines.size()));
     Experiment e;
-    e.period_s = 1 / k.at("step_Hz");
-    e.duration_s = k.at("periods") / k.at("step_Hz");
+    e.period_s = 1 / base_frequency(k.at("from_Hz"), k.at("step_Hz"));
+    e.duration_s = k.at("periods") * *e.period_s;
     e.position_ref = [=](double t) {
         double sum = 0; // from rest: each line less its own start
         for (const Line& l : lines)

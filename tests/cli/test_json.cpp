@@ -54,6 +54,21 @@ TEST(Json, Compare) {
         EXPECT_TRUE(regime.at("residual_share").is_number());
         EXPECT_TRUE(regime.at("sample_share").is_number());
     }
+    for (const char* group : {"velocity", "position", "acceleration", "torque"}) {
+        double samples = 0;
+        for (const Json& regime : json.at("where"))
+            if (regime.at("group") == group) {
+                samples += regime.at("sample_share").get<double>();
+                EXPECT_LT(regime.at("from").get<double>(), regime.at("to").get<double>());
+                EXPECT_TRUE(regime.at("mean_residual").is_number());
+            }
+        EXPECT_NEAR(samples, 1, 1e-9) << group;
+    }
+    for (const char* key : {"base_Hz", "excited", "even", "between"})
+        EXPECT_TRUE(json.at("lines").at(key).is_number()) << key;
+    EXPECT_TRUE(json.at("lines").contains("odd"));
+    EXPECT_TRUE(json.at("lag_s").is_null() || json.at("lag_s").at("unit") == "s");
+    EXPECT_TRUE(json.at("band_from").is_string());
 }
 
 TEST(Json, CompareHasNoLoopWithoutAController) {

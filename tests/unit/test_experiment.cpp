@@ -50,6 +50,18 @@ TEST(Experiment, MultisineRepeatsAndItsSeedDecides) {
     EXPECT_NE(at("multisine:seed=3", 0.03), at("multisine:seed=4", 0.03));
 }
 
+// Odd lines only: the move repeats after two of what the step says.
+TEST(Experiment, MultisineWhoseLinesStartOffTheStep) {
+    const Experiment odd =
+        parse_experiment("multisine:from_Hz=5,to_Hz=95,step_Hz=10,amplitude=0.5,periods=4");
+    EXPECT_NEAR(*odd.period_s, 0.2, 1e-12);
+    EXPECT_NEAR(odd.duration_s, 0.8, 1e-12);
+    EXPECT_NEAR(odd.position_ref(0.033), odd.position_ref(0.233), 1e-12);
+    EXPECT_GT(std::abs(odd.position_ref(0.033) - odd.position_ref(0.133)), 0.01);
+    const Experiment fine = parse_experiment("multisine:from_Hz=0.3,to_Hz=3,step_Hz=0.2");
+    EXPECT_NEAR(*fine.period_s, 10, 1e-9);
+}
+
 TEST(Experiment, TrapezoidKeepsItsLimits) {
     const Experiment e =
         parse_experiment("trapezoid:stroke=10,velocity=20,acceleration=400,dwell=0.1,cycles=2");

@@ -146,10 +146,14 @@ bool fits(const Effect& effect, const Model& model) {
     return cannot_add(effect, model).empty();
 }
 
-EffectTerm random_term(std::mt19937_64& random, const EffectInfo& info) {
+EffectTerm random_term(std::mt19937_64& random, const Effect& effect, Motion motion) {
     EffectTerm term;
-    term.name = info.name;
-    for (const auto& parameter : info.parameters) {
+    term.name = effect.info().name;
+    const bool in_metres = motion == Motion::linear && coin(random);
+    if (in_metres) term.parameters["period"] = 0; // effects with an order take it instead
+    const std::vector<ParameterInfo> parameters = effect.parameters(term);
+    term.parameters.clear();
+    for (const auto& parameter : parameters) {
         term.parameters[parameter.key] = random_number(random, parameter.lower, parameter.upper);
         if (coin(random)) term.fixed.push_back(parameter.key);
     }
@@ -186,7 +190,7 @@ Model random_model(std::mt19937_64& random) {
         if (effect->info().name == "custom") continue;
         for (int repeat = 0; repeat < (effect->info().repeatable ? 2 : 1); ++repeat)
             if (coin(random) && fits(*effect, model))
-                model.effects.push_back(random_term(random, effect->info()));
+                model.effects.push_back(random_term(random, *effect, model.motion));
     }
     return model;
 }
@@ -228,6 +232,38 @@ TEST(ModelFile, RandomModelsReadBackExactly) {
         ASSERT_NO_THROW(expect_same(parse_model(text, "random"), model));
         EXPECT_EQ(format_model(parse_model(text, "random")), text);
     }
+}
+
+const std::string linear_axis = "motion = \"linear\"\n\n[plant]\ninertia = 95.0\n\n";
+
+TEST(ModelFile, PeriodInMetresInPlaceOfAnOrder) {
+    const std::string screw = "[[effects.cogging]]\namplitude = 1.5\nperiod    = 0.0025\n"
+                              "phase     = 0.5\nfixed     = [\"period\"]\n";
+    const Model model = parse_model(linear_axis + screw, "m.toml");
+    ASSERT_EQ(model.effects.size(), 1u);
+    EXPECT_EQ(model.effects[0].at("period"), 0.0025);
+    EXPECT_FALSE(model.effects[0].parameters.contains("order"));
+    EXPECT_TRUE(model.effects[0].is_fixed("period"));
+    EXPECT_EQ(format_model(model), linear_axis + screw) << "written as it was read";
+    for (const char* name : {"torque_ripple", "variable_inertia"})
+        EXPECT_EQ(error_of(linear_axis + "[effects." + name +
+                           "]\nfraction = 0.1\nperiod = 0.0025\nphase = 0\n"),
+                  "");
+}
+
+TEST(ModelFile, PeriodWhereItHasNoPlace) {
+    const std::string both = "[effects.cogging]\namplitude = 1.5\nperiod = 0.0025\norder = 400\n";
+    EXPECT_EQ(error_of(linear_axis + both + "phase = 0\n"),
+              "m.toml:9: effects.cogging.order and period say the same; keep one of them");
+    EXPECT_EQ(error_of("motion = \"rotary\"\n[plant]\ninertia = 1\n[effects.cogging]\n"
+                       "amplitude = 1\nperiod = 0.0025\nphase = 0\n"),
+              "m.toml:6: effects.cogging.period is for a linear axis; expected order, in cycles "
+              "per revolution");
+    EXPECT_EQ(error_of(linear_axis + "[effects.cogging]\namplitude = 1\nperiod = 0\nphase = 0\n"),
+              "m.toml:8: effects.cogging.period = 0 is out of bounds; expected at least 1e-09");
+    EXPECT_NE(error_of(linear_axis + "[effects.viscous]\ncoefficient = 1\nperiod = 0.0025\n")
+                  .find("unknown key"),
+              std::string::npos);
 }
 
 TEST(ModelFile, CustomEffects) {

@@ -63,6 +63,33 @@ TEST(Regression, SeveralCapturesWithDifferentSampleTimes) {
     EXPECT_NEAR(f.values[1], kViscous, kClose * kViscous);
 }
 
+// A linear axis whose model says the length of a cycle.
+TEST(Regression, PeriodInMetres) {
+    constexpr double kPeriod_m = 0.35, kAmplitude = 0.2;
+    Capture c = sampled(
+        [](const Kinematics& k, double) {
+            return true_torque(k) +
+                   kAmplitude * std::sin(2 * std::numbers::pi / kPeriod_m * k.position + 0.4);
+        },
+        12);
+    c.linear = true;
+    Model model = believed();
+    model.motion = Motion::linear;
+    model.effects.push_back(
+        term("cogging", {{"amplitude", 0.1}, {"period", 1.02 * kPeriod_m}, {"phase", 0}}));
+    const FitResult f = fit_one(model, c, 100);
+    const EffectTerm& cogging = f.model.effects.back();
+    EXPECT_NEAR(cogging.at("period"), kPeriod_m, 1e-4 * kPeriod_m);
+    EXPECT_NEAR(cogging.at("amplitude"), kAmplitude, 1e-3 * kAmplitude);
+    EXPECT_NEAR(cogging.at("phase"), 0.4, 1e-2);
+    EXPECT_FALSE(cogging.parameters.contains("order"));
+    const auto named = std::find_if(f.parameters.begin(), f.parameters.end(),
+                                    [](const auto& p) { return p.name == "cogging.period"; });
+    ASSERT_NE(named, f.parameters.end());
+    EXPECT_EQ(unit_of(named->quantity, Motion::linear), "m");
+    EXPECT_GT(named->estimate.std, 0);
+}
+
 TEST(Regression, FixedParametersStay) {
     const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
     Model model = believed();

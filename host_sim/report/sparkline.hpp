@@ -1,0 +1,13 @@
+// A row of numbers as a row of characters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace servoid {
+
+// One character a value: the higher, the larger; zero is in the middle, ± full_scale and beyond at
+// the ends. blocks: ▁▂▃▄▅▆▇, else _ . - ' " of ASCII.
+std::string sparkline(const std::vector<double>& values, double full_scale, bool blocks);
+
+} // namespace servoid
