@@ -19,7 +19,8 @@ struct Options {
     std::string model;
 };
 
-Json to_json(const Comparison& c, const std::vector<std::string>& warnings) {
+Json to_json(const Comparison& c, const std::vector<std::string>& warnings,
+             const std::vector<CaptureZero>& zeros) {
     Json out = {{"schema", "servoid.compare/1"},
                 {"torque_error", number(c.torque_error)},
                 {"noise_floor", number(c.floor.ratio)},
@@ -41,6 +42,7 @@ Json to_json(const Comparison& c, const std::vector<std::string>& warnings) {
     out["samples_used_share"] = c.samples_used_share;
     out["duration_s"] = c.duration_s;
     out["warnings"] = warnings;
+    add_homing(out, zeros);
     return out;
 }
 
@@ -73,10 +75,13 @@ void run_compare(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
-    const std::vector<std::string> warnings = check_capture(model, motions, o.output);
+    std::vector<std::string> warnings = check_capture(model, motions, o.output);
+    warn_of_zero(model, motions.front(), warnings, o.output);
     const Comparison c = compare(model, motions);
-    o.output.print_json(to_json(c, warnings));
+    const std::vector<CaptureZero> zeros = zeros_of(c.homing, captures);
+    o.output.print_json(to_json(c, warnings, zeros));
     print(o.output, c);
+    print_homing(o.output, zeros);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "compare/compare.hpp"
 
+#include "compare/homing_search.hpp"
 #include "compare/loop_view.hpp"
 #include "compare/regression.hpp"
 
@@ -36,10 +37,11 @@ struct Part {
     Powers powers;
 };
 
-std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions) {
+std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions,
+                           const Homing& homing) {
     std::vector<Part> out;
     for (const PreparedMotion& m : motions) {
-        out.push_back({&m, residual_torque(model, m), {}});
+        out.push_back({&m, residual_torque(at_zero(model, homing.of(out.size())), m), {}});
         out.back().powers = powers_of(m, out.back().residual);
     }
     return out;
@@ -83,11 +85,12 @@ void merge(std::vector<Regime>& all, const std::vector<Regime>& part, double pow
     }
 }
 
-std::optional<LoopError> loop_of_all(const Model& model,
-                                     const std::vector<PreparedMotion>& motions) {
+std::optional<LoopError> loop_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
+                                     const Homing& homing) {
     LoopError sum;
-    for (const PreparedMotion& m : motions) {
-        const std::optional<LoopError> one = loop_view(model, *m.capture);
+    for (size_t i = 0; i < motions.size(); ++i) {
+        const std::optional<LoopError> one =
+            loop_view(at_zero(model, homing.of(i)), *motions[i].capture);
         if (!one) return std::nullopt;
         sum.torque_error += one->torque_error * one->torque_error;
         sum.position_error += one->position_error * one->position_error;
@@ -110,14 +113,16 @@ std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
     return out;
 }
 
-NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions) {
-    return pooled_floor(parts_of(model, motions), model.inertia);
+NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
+                              const Homing& homing) {
+    return pooled_floor(parts_of(model, motions, homing), model.inertia);
 }
 
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions) {
-    const std::vector<Part> parts = parts_of(model, motions);
-    const Powers total = sum_of(parts);
     Comparison out;
+    out.homing = homing_against(model, motions, 1);
+    const std::vector<Part> parts = parts_of(model, motions, out.homing);
+    const Powers total = sum_of(parts);
     for (const Part& part : parts) {
         const PreparedMotion& m = *part.motion;
         merge(out.where, where_it_fails(m, part.residual), part.powers.residual / total.residual,
@@ -130,7 +135,7 @@ Comparison compare(const Model& model, const std::vector<PreparedMotion>& motion
     out.floor = pooled_floor(parts, model.inertia);
     out.torque_error = std::sqrt(total.residual / total.torque);
     out.samples_used_share = double(total.used) / double(total.all);
-    out.loop = loop_of_all(model, motions);
+    out.loop = loop_of_all(model, motions, out.homing);
     return out;
 }
 
