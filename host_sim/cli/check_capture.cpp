@@ -1,7 +1,10 @@
 #include "cli/check_capture.hpp"
 
 #include "common/error.hpp"
+#include "compare/homing_search.hpp"
 #include "diagnose/sanity.hpp"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -24,6 +27,18 @@ std::vector<std::string> check_capture(const Model& model,
     for (const std::string& warning : warnings)
         output.note("servoid: warning: " + warning);
     return warnings;
+}
+
+void warn_of_zero(const Model& model, const PreparedMotion& motion,
+                  std::vector<std::string>& warnings, const Output& output) {
+    const auto zero = offset_against(model, motion);
+    if (!zero) return;
+    warnings.push_back(fmt::format(
+        "{}: the position zero differs from the model's by {:.4g} {}: the phases belong "
+        "to another recording; at the model's zero the error would be {:.3g} %",
+        motion.capture->path, zero->offset.value, unit_of(Quantity::position, model.motion),
+        100 * zero->error));
+    output.note("servoid: warning: " + warnings.back());
 }
 
 Json cannot_show_json(const std::vector<Unseen>& unseen) {

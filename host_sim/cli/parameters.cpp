@@ -97,6 +97,27 @@ void print_parameters(const Output& out, const FitResult& fit, bool ampere) {
                              name));
 }
 
+std::vector<CaptureZero> zeros_of(const Homing& homing, const std::vector<Capture>& captures) {
+    std::vector<CaptureZero> out;
+    for (size_t i : homing.all_moved())
+        out.push_back(
+            {captures[i].path, homing.offset[i],
+             unit_of(Quantity::position, captures[i].linear ? Motion::linear : Motion::rotary)});
+    return out;
+}
+
+void add_homing(Json& out, const std::vector<CaptureZero>& zeros) {
+    for (const CaptureZero& z : zeros)
+        out["homing"].push_back(
+            {{"capture", z.file}, {"offset", parameter(z.offset.value, z.offset.std, z.unit)}});
+}
+
+void print_homing(const Output& out, const std::vector<CaptureZero>& zeros) {
+    for (const CaptureZero& z : zeros)
+        out.line(fmt::format("not homed      {}: its position zero lies at {:.5g} ± {:.2g} {}",
+                             z.file, z.offset.value, z.offset.std, z.unit));
+}
+
 Json model_json(const Model& model) {
     Json out = Json::object();
     out["name"] = model.name;

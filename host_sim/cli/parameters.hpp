@@ -16,6 +16,18 @@ Json fitted_parameters(const FitResult& fit, bool ampere);
 // One line per parameter: name, value ± std, unit.
 void print_parameters(const Output& out, const FitResult& fit, bool ampere);
 
+// Position zeros that differ from the first capture's (or, of captures that were not fitted, from
+// the model's).
+struct CaptureZero {
+    std::string file;
+    Estimate offset;
+    std::string unit;
+};
+std::vector<CaptureZero> zeros_of(const Homing& homing, const std::vector<Capture>& captures);
+// Only where there are any: "homing" in the JSON, a line each on the terminal.
+void add_homing(Json& out, const std::vector<CaptureZero>& zeros);
+void print_homing(const Output& out, const std::vector<CaptureZero>& zeros);
+
 // The model as JSON, the tables of the model file.
 Json model_json(const Model& model);
 

@@ -41,19 +41,23 @@ void run_add(const Options& o) {
     const Addition a = law ? add_law(model, *law, motions) : add_effect(model, name, motions);
     const bool ampere = captures.front().torque_in_ampere;
     if (!o.out.empty()) write_file(o.out, format_model(a.after.model));
-    o.output.print_json({{"schema", "servoid.add/1"},
-                         {"effect", name},
-                         {"error_before", number(a.before.torque_error)},
-                         {"error_after", number(a.after.torque_error)},
-                         {"band_Hz", motions.front().band_Hz},
-                         {"at_bound", a.after.at_bound},
-                         {"warnings", warnings},
-                         {"model", model_json(a.after.model)},
-                         {"model_parameters", fitted_parameters(a.after, ampere)}});
+    Json json = {{"schema", "servoid.add/1"},
+                 {"effect", name},
+                 {"error_before", number(a.before.torque_error)},
+                 {"error_after", number(a.after.torque_error)},
+                 {"band_Hz", motions.front().band_Hz},
+                 {"at_bound", a.after.at_bound},
+                 {"warnings", warnings},
+                 {"model", model_json(a.after.model)},
+                 {"model_parameters", fitted_parameters(a.after, ampere)}};
+    const std::vector<CaptureZero> zeros = zeros_of(a.after.homing, captures);
+    add_homing(json, zeros);
+    o.output.print_json(json);
     o.output.line(fmt::format(
         "torque error   {} -> {}   with {} ({:.3g} Hz band)", percent(a.before.torque_error),
         o.output.bold(percent(a.after.torque_error)), name, motions.front().band_Hz));
     print_parameters(o.output, a.after, ampere);
+    print_homing(o.output, zeros);
     if (!o.out.empty()) o.output.line("wrote " + o.out);
 }
 

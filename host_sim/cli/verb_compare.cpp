@@ -2,6 +2,7 @@
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/compare_output.hpp"
+#include "cli/parameters.hpp"
 #include "compare/compare.hpp"
 
 #include <memory>
@@ -20,10 +21,15 @@ void run_compare(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
-    const std::vector<std::string> warnings = check_capture(model, motions, o.output);
+    std::vector<std::string> warnings = check_capture(model, motions, o.output);
+    warn_of_zero(model, motions.front(), warnings, o.output);
     const Comparison c = compare(model, motions);
-    o.output.print_json(compare_json(c, warnings));
+    const std::vector<CaptureZero> zeros = zeros_of(c.homing, captures);
+    Json json = compare_json(c, warnings);
+    add_homing(json, zeros);
+    o.output.print_json(json);
     print_comparison(o.output, c);
+    print_homing(o.output, zeros);
 }
 
 } // namespace

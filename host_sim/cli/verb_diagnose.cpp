@@ -48,8 +48,15 @@ Json next_json(const std::optional<NextExperiment>& next) {
 }
 
 using Warnings = std::vector<std::string>;
+using Zeros = std::vector<CaptureZero>;
 
-Json to_json(const Diagnosis& d, const Warnings& warnings, bool ampere) {
+// With the effect that was found, else of the model as it is.
+const Homing& homing_of(const Diagnosis& d) {
+    const bool found = d.verdict == Verdict::missing || d.verdict == Verdict::ambiguous;
+    return found ? d.candidates.front().fit.homing : d.before.homing;
+}
+
+Json to_json(const Diagnosis& d, const Warnings& warnings, const Zeros& zeros, bool ampere) {
     Json out = {{"schema", "servoid.diagnose/1"},
                 {"verdict", verdict_name(d.verdict)},
                 {"error_before", number(d.error_before)},
@@ -64,6 +71,7 @@ Json to_json(const Diagnosis& d, const Warnings& warnings, bool ampere) {
     for (const Probe& p : d.probes)
         out["probes"].push_back({{"variable", p.name}, {"explained", number(p.explained)}});
     out["model_parameters"] = fitted_parameters(d.before, ampere);
+    add_homing(out, zeros);
     out["next_experiment"] = next_json(d.next);
     out["cannot_show"] = cannot_show_json(d.cannot_show);
     out["warnings"] = warnings;
@@ -125,8 +133,10 @@ void answer_diagnose(const Options& o) {
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const Warnings warnings = check_capture(model, motions, o.output);
     const Diagnosis d = diagnose(model, motions, with_progress(o.output));
-    o.output.print_json(to_json(d, warnings, ampere));
+    const Zeros zeros = zeros_of(homing_of(d), captures);
+    o.output.print_json(to_json(d, warnings, zeros, ampere));
     print(o.output, d, ampere);
+    print_homing(o.output, zeros);
     refuse_if_insufficient(d);
 }
 
@@ -139,7 +149,7 @@ struct RefineOptions : Options {
     std::string out;
 };
 
-Json to_json(const Refinement& r, const Warnings& warnings, bool ampere) {
+Json to_json(const Refinement& r, const Warnings& warnings, const Zeros& zeros, bool ampere) {
     Json out = {{"schema", "servoid.refine/1"},
                 {"verdict", verdict_name(r.verdict)},
                 {"ladder", Json::array()}};
@@ -150,6 +160,7 @@ Json to_json(const Refinement& r, const Warnings& warnings, bool ampere) {
     out["removed"] = r.removed;
     out["model"] = model_json(r.result.model);
     out["model_parameters"] = fitted_parameters(r.result, ampere);
+    add_homing(out, zeros);
     out["noise_floor"] = number(r.noise_floor);
     out["band_Hz"] = r.last.band_Hz;
     out["next_experiment"] = next_json(r.last.next);
@@ -194,8 +205,12 @@ void answer_refine(const RefineOptions& o) {
     const Refinement r =
         refine(model, motions, prepare_all(unseen, o.captures.motion()), with_progress(o.output));
     if (!o.out.empty()) write_file(o.out, format_model(r.result.model));
-    o.output.print_json(to_json(r, warnings, ampere));
+    Zeros zeros = zeros_of(r.result.homing, captures);
+    for (const CaptureZero& zero : zeros_of(r.validation_homing, unseen))
+        zeros.push_back(zero);
+    o.output.print_json(to_json(r, warnings, zeros, ampere));
     print(o.output, r, ampere);
+    print_homing(o.output, zeros);
     if (!o.out.empty()) o.output.line("wrote " + o.out);
     refuse_if_insufficient(r.last);
 }

@@ -81,6 +81,7 @@ Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(moti
     for (size_t i = 0; i < motions.size(); ++i) {
         views_.push_back(motions[i].motion);
         const int first = int(i) * kBlocksPerCapture;
+        rows_.push_back({Eigen::Index(block_.size()), motions[i].used_count()});
         for (Eigen::Index k = 0; k < motions[i].grid.count; ++k)
             if (motions[i].used[size_t(k)]) block_.push_back(first + block_at(motions[i], k));
     }
@@ -153,12 +154,14 @@ MotionView in_context(const Model& model, MotionView view) {
 }
 
 void Assembler::set_context(const Model& model) {
-    for (MotionView& view : views_)
-        view = in_context(model, std::move(view));
+    for (size_t i = 0; i < views_.size(); ++i)
+        views_[i] = in_context(at_zero(model, homing_.of(i)), std::move(views_[i]));
     // Only laws that look at the rest of the model are computed anew.
     context_ = fmt::format("{:a}", model.inertia);
     for (const EffectTerm& term : model.effects)
         context_ += key_of(term);
+    for (const Estimate& offset : homing_.offset)
+        context_ += fmt::format("@{:a}", offset.value);
 }
 
 Matrix Assembler::used_rows(size_t capture, const Matrix& rows) const {
@@ -242,6 +245,10 @@ Assembly Assembler::assemble(const Model& model) {
         out.columns.middleCols(next, count) = columns_of(term);
         next += count;
     }
+    const std::vector<PositionWave> waves = waves_of(model);
+    for (size_t i = 0; i < rows_.size(); ++i)
+        if (homing_.moved(i))
+            turn(out.columns.middleRows(rows_[i].first, rows_[i].count), waves, homing_.of(i));
     return out;
 }
 

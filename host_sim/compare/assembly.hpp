@@ -1,6 +1,7 @@
 // The torque view as a matrix: what a model needs for measured motions, in columns.
 #pragma once
 
+#include "compare/homing.hpp"
 #include "compare/motion.hpp"
 #include "model/model.hpp"
 
@@ -38,6 +39,11 @@ class Assembler {
     // A torque on the used points that no law is asked to explain (rows: blocks().size()).
     void set_artifact(Eigen::VectorXd artifact) { artifact_ = std::move(artifact); }
     const Eigen::VectorXd& artifact() const { return artifact_; }
+    // Where the captures' position zeros lie. The columns that are kept know nothing of it: a wave
+    // of the position at another zero is a turn of its two columns.
+    void set_homing(Homing homing) { homing_ = std::move(homing); }
+    const Homing& homing() const { return homing_; }
+    Rows rows_of(size_t capture) const { return rows_[capture]; } // its used points
     // Tells laws that change others (a drift of friction, an inertia that varies) what the rest of
     // the model says now.
     void set_context(const Model& model);
@@ -56,7 +62,9 @@ class Assembler {
     const std::vector<PreparedMotion>& motions_;
     std::vector<MotionView> views_; // the motions with the context of the model
     std::vector<int> block_;
+    std::vector<Rows> rows_;
     Eigen::VectorXd artifact_;
+    Homing homing_;
     Columns cache_;
     std::string context_;
 };

@@ -1,6 +1,7 @@
 #include "compare/compare.hpp"
 
 #include "compare/by_value.hpp"
+#include "compare/homing_search.hpp"
 #include "compare/lag.hpp"
 #include "compare/loop_view.hpp"
 #include "compare/regression.hpp"
@@ -39,10 +40,12 @@ struct Part {
     NoiseFloor floor;
 };
 
-std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions) {
+std::vector<Part> parts_of(const Model& model, const std::vector<PreparedMotion>& motions,
+                           const Homing& homing) {
     std::vector<Part> out;
     for (const PreparedMotion& m : motions) {
-        Part part{&m, model_torque(model, m), delivered_torque(model, m), {}, {}};
+        const Model here = at_zero(model, homing.of(out.size()));
+        Part part{&m, model_torque(here, m), delivered_torque(here, m), {}, {}};
         part.residual -= part.model_torque;
         part.powers = powers_of(m, part.residual);
         part.floor = noise_floor(m, part.residual, model.inertia);
@@ -103,11 +106,12 @@ void merge(std::vector<Regime>& all, const std::vector<Regime>& part, double pow
     }
 }
 
-std::optional<LoopError> loop_of_all(const Model& model,
-                                     const std::vector<PreparedMotion>& motions) {
+std::optional<LoopError> loop_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
+                                     const Homing& homing) {
     LoopError sum;
-    for (const PreparedMotion& m : motions) {
-        const std::optional<LoopError> one = loop_view(model, *m.capture);
+    for (size_t i = 0; i < motions.size(); ++i) {
+        const std::optional<LoopError> one =
+            loop_view(at_zero(model, homing.of(i)), *motions[i].capture);
         if (!one) return std::nullopt;
         sum.torque_error += one->torque_error * one->torque_error;
         sum.position_error += one->position_error * one->position_error;
@@ -130,14 +134,16 @@ std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
     return out;
 }
 
-NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions) {
-    return pooled_floor(parts_of(model, motions));
+NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
+                              const Homing& homing) {
+    return pooled_floor(parts_of(model, motions, homing));
 }
 
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions) {
-    const std::vector<Part> parts = parts_of(model, motions);
-    const Powers total = sum_of(parts);
     Comparison out;
+    out.homing = homing_against(model, motions, 1);
+    const std::vector<Part> parts = parts_of(model, motions, out.homing);
+    const Powers total = sum_of(parts);
     for (const Part& part : parts) {
         const PreparedMotion& m = *part.motion;
         merge(out.where, where_it_fails(m, part.residual), part.powers.residual / total.residual,
@@ -157,7 +163,7 @@ Comparison compare(const Model& model, const std::vector<PreparedMotion>& motion
     out.residual_rms = std::sqrt(total.residual / double(total.used));
     out.torque_error = std::sqrt(total.residual / total.torque);
     out.samples_used_share = double(total.used) / double(total.all);
-    out.loop = loop_of_all(model, motions);
+    out.loop = loop_of_all(model, motions, out.homing);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // How far a model and its measurements are apart, and where.
 #pragma once
 
+#include "compare/homing.hpp"
 #include "compare/lines.hpp"
 #include "compare/noise_floor.hpp"
 #include "compare/where.hpp"
@@ -32,12 +33,14 @@ struct Comparison {
     double band_Hz = 0;                           // the highest of the captures
     BandLimit band_limited_by = BandLimit::asked; // of that capture
     std::string torque_name, torque_unit;
+    Homing homing; // against the model's phases
 };
 
 // The noise floor of all captures together, for the residual that this model leaves.
-NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions);
+NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
+                              const Homing& homing = {});
 
-// All captures together: powers add up.
+// All captures together: powers add up. Those after the first may have their own position zero.
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions);
 
 // prepare_motion for each capture.

@@ -31,10 +31,11 @@ struct State {
     LinearFit linear;
     Vector residual;
     double error = 0; // ‖r‖/‖T‖
+    Homing homing;
 };
 
 State evaluate(const Model& model, Assembler& assembler) {
-    State s{model, assembler.assemble(model), {}, {}, 0};
+    State s{model, assembler.assemble(model), {}, {}, 0, assembler.homing()};
     std::vector<bool> fixed;
     std::vector<double> lower;
     for (size_t i = 0; i < s.assembly.coefficients.size(); ++i) {
@@ -68,6 +69,30 @@ Matrix shape_slopes(const State& s, const std::vector<Shape>& shapes, Assembler&
         out.col(Eigen::Index(i)) =
             (a.torque - a.columns * coefficient_values(moved) - s.residual) / step;
     }
+    return out;
+}
+
+// The same of the offsets that are not 0.
+Matrix homing_slopes(const State& s, const Assembler& assembler) {
+    const std::vector<size_t> moved = s.homing.all_moved();
+    const std::vector<PositionWave> waves = waves_of(s.model);
+    Matrix out = Matrix::Zero(s.residual.size(), Eigen::Index(moved.size()));
+    for (size_t i = 0; i < moved.size(); ++i) {
+        const Rows rows = assembler.rows_of(moved[i]);
+        out.col(Eigen::Index(i)).segment(rows.first, rows.count) =
+            -offset_slope(s.assembly.columns.middleRows(rows.first, rows.count), waves,
+                          coefficient_values(s.model));
+    }
+    return out;
+}
+
+// No step moves an offset further than half a radian of the fastest wave.
+Homing moved_by(const State& s, const Vector& by) {
+    const double most = 0.5 / std::max(1e-300, fastest_wave(waves_of(s.model)));
+    Homing out = s.homing;
+    Eigen::Index next = 0;
+    for (size_t i : s.homing.all_moved())
+        out.offset[i].value += std::clamp(by[next++], -most, most);
     return out;
 }
 
@@ -117,11 +142,14 @@ double objective(const State& s, const std::vector<Shape>& shapes) {
 bool descend(State& s, Assembler& assembler, const FitOptions& options) {
     std::vector<Shape> shapes = shapes_of(s.model, options.frozen_terms);
     stay_near_beliefs(shapes, s, options);
-    if (shapes.empty()) return true;
+    const auto count = Eigen::Index(shapes.size());
+    const auto offsets = Eigen::Index(s.homing.all_moved().size());
+    if (count + offsets == 0) return true;
     double damping = 1e-3;
     for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
         const Matrix x = pick(s.assembly.columns, s.linear.free);
-        Matrix slopes = shape_slopes(s, shapes, assembler);
+        Matrix slopes(s.residual.size(), count + offsets);
+        slopes << shape_slopes(s, shapes, assembler), homing_slopes(s, assembler);
         for (Eigen::Index i = 0; i < slopes.cols(); ++i) // a law without a value beside this one
             if (!slopes.col(i).allFinite()) slopes.col(i).setZero();
         if (x.cols() > 0) slopes -= x * (x.transpose() * x).ldlt().solve(x.transpose() * slopes);
@@ -129,7 +157,7 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
         slopes = slopes * scale.asDiagonal();
         Matrix normal = slopes.transpose() * slopes;
         Vector gradient = slopes.transpose() * s.residual;
-        for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+        for (Eigen::Index i = 0; i < count; ++i) {
             const Shape& shape = shapes[size_t(i)];
             const double value = s.model.effects[shape.term].at(shape.key);
             normal(i, i) += shape.weight * scale[i] * scale[i];
@@ -141,6 +169,7 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
             Matrix damped = normal;
             damped.diagonal().array() += damping;
             const Vector by = -(scale.asDiagonal() * damped.ldlt().solve(gradient));
+            assembler.set_homing(moved_by(s, by.tail(offsets)));
             State next = evaluate(moved_by(s, shapes, by), assembler);
             better = objective(next, shapes) < before;
             if (better)
@@ -148,6 +177,7 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
             else
                 damping *= 10;
         }
+        assembler.set_homing(s.homing);
         if (!better || before - objective(s, shapes) < 2e-6 * before) return true;
     }
     return false;
@@ -169,10 +199,10 @@ void refuse_if_alike(const State& s) {
 
 // How the residual moves with everything that is fitted.
 Joint joint_of(const State& s, Assembler& assembler) {
-    Joint out{{}, s.linear.free, shapes_of(s.model)};
+    Joint out{{}, s.linear.free, shapes_of(s.model), s.homing.all_moved()};
     const Matrix x = pick(s.assembly.columns, out.free);
-    out.slopes.resize(x.rows(), x.cols() + Eigen::Index(out.shapes.size()));
-    out.slopes << x, -shape_slopes(s, out.shapes, assembler);
+    out.slopes.resize(x.rows(), x.cols() + Eigen::Index(out.shapes.size() + out.moved.size()));
+    out.slopes << x, -shape_slopes(s, out.shapes, assembler), -homing_slopes(s, assembler);
     return out;
 }
 
@@ -199,6 +229,7 @@ std::string coefficient_name(const Model& model, const Coefficient& coefficient)
 
 Matrix joint_slopes(const FitResult& fitted, Assembler& assembler) {
     assembler.set_artifact(fitted.artifact);
+    assembler.set_homing(fitted.homing);
     assembler.set_context(fitted.model);
     const State s = evaluate(fitted.model, assembler);
     return joint_of(s, assembler).slopes;
@@ -255,6 +286,7 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     // Laws that change others (a drift of friction), or that depend on the torque, see the model as
     // it was: once more with what came out, and until it settles where the user's laws do.
     const int most = feeds_back(model) ? kMostContexts : 2;
+    if (waves_of(model).empty()) assembler.set_homing({});
     State s;
     s.model = options.start_values ? without_start_torque(model) : model;
     bool converged = true;
@@ -276,14 +308,14 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     out.torque_error = s.error;
     out.converged = converged;
     out.residual = s.residual, out.torque = s.assembly.torque, out.block = s.assembly.block;
-    out.artifact = assembler.artifact();
+    out.artifact = assembler.artifact(), out.homing = s.homing;
     out.believed_terms = options.believed_terms;
-    Joint joint{{}, s.linear.free, shapes_of(s.model)};
+    Joint joint{{}, s.linear.free, shapes_of(s.model), s.homing.all_moved()};
     if (options.uncertainty) {
         joint = joint_of(s, assembler);
         out.condition = condition_of(pick(s.assembly.columns, s.linear.free));
     }
-    out.free_parameters = int(joint.free.size() + joint.shapes.size());
+    out.free_parameters = int(joint.free.size() + joint.shapes.size() + joint.moved.size());
     add_uncertainty(out, joint);
     return out;
 }

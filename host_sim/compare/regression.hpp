@@ -38,6 +38,7 @@ struct FitResult {
     std::vector<int> block;                // of the used points, for correlated errors
     Eigen::VectorXd artifact;              // what was taken out of the torque beforehand
     double doubt = 0; // of the torque: an artifact that may be there as well, and is not confirmed
+    Homing homing;    // where the captures' position zeros lie
     int free_parameters = 0;
     size_t believed_terms = SIZE_MAX; // as in FitOptions
 };
@@ -54,12 +55,13 @@ struct FitOptions {
 
 // Least squares of everything that is not fixed, with dissipation kept ≥ 0. Standard deviations are
 // block-robust (scores summed over blocks of the record), so they hold for residuals that are
-// correlated in time. Throws Refusal where the parameters cannot be told apart.
+// correlated in time. Offsets of the assembler's homing that are not 0 are fitted too, and left in
+// it. Throws Refusal where the parameters cannot be told apart.
 FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions);
 FitResult fit(const Model& model, Assembler& assembler, const FitOptions& options = {});
 
 // How the model's torque moves with everything that was fitted, to first order: the free columns,
-// then one column per shape parameter (rows: used points).
+// then one column per shape parameter, then one per offset of the homing (rows: used points).
 Eigen::MatrixXd joint_slopes(const FitResult& fitted, Assembler& assembler);
 
 // ‖T − T̂‖/‖T‖ with the shapes as they are and the coefficients solved for; infinite where they

@@ -85,4 +85,13 @@ double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s) {
     return between_bins(spectrum, k);
 }
 
+double effective_count(const Eigen::VectorXd& residual) {
+    const Spectrum spectrum = power_spectrum(residual, 1);
+    const double total = spectrum.power.sum(), square = spectrum.power.squaredNorm();
+    if (!(square > 0)) return 1;
+    // White noise: N/2 bins whose powers scatter like an exponential, so that Σ²/Σ(²) is N/4.
+    const double count = 4 * total * total / square;
+    return std::clamp(count, 4.0, double(residual.size()));
+}
+
 } // namespace servoid

@@ -22,4 +22,8 @@ double strongest_line_Hz(const Eigen::VectorXd& signal, double sample_time_s);
 std::vector<double> strongest_lines_Hz(const Eigen::VectorXd& signal, double sample_time_s,
                                        int most);
 
+// How many independent numbers a residual holds, from the flatness of its spectrum: N for white
+// noise up to the Nyquist frequency, few for a residual that repeats or drifts.
+double effective_count(const Eigen::VectorXd& residual);
+
 } // namespace servoid

@@ -41,8 +41,7 @@ std::vector<double> term_variance(const FitResult& fitted, size_t term, const Jo
                                   const Matrix& covariance) {
     const EffectTerm& base = fitted.model.effects[term];
     const Effect& effect = *find_effect(base.name);
-    const auto n = Eigen::Index(joint.free.size() + joint.shapes.size());
-    Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), n);
+    Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), covariance.rows());
     const auto put = [&](Eigen::Index at, const EffectTerm& moved, double step) {
         Eigen::Index row = 0;
         for (const auto& [key, value] : base.parameters)
@@ -115,7 +114,7 @@ void add_uncertainty(FitResult& out, const Joint& joint) {
     out.covariance = Matrix::Zero(out.values.size(), out.values.size());
     Matrix cov;
     if (joint.slopes.cols() > 0) {
-        const auto columns = joint.slopes.cols() - Eigen::Index(joint.shapes.size());
+        const auto columns = Eigen::Index(joint.free.size());
         for (size_t i = 0; i < joint.shapes.size(); ++i)
             refuse_if_undetermined({out.model, joint.shapes[i].term, joint.shapes[i].key},
                                    joint.slopes, columns + Eigen::Index(i));
@@ -125,6 +124,11 @@ void add_uncertainty(FitResult& out, const Joint& joint) {
             for (size_t j = 0; j < joint.free.size(); ++j)
                 out.covariance(joint.free[i], joint.free[j]) =
                     cov(Eigen::Index(i), Eigen::Index(j));
+        }
+        const auto offsets = columns + Eigen::Index(joint.shapes.size());
+        for (size_t i = 0; i < joint.moved.size(); ++i) {
+            const Eigen::Index at = offsets + Eigen::Index(i);
+            out.homing.offset[joint.moved[i]].std = std::sqrt(std::max(0.0, cov(at, at)));
         }
     }
     list_parameters(out, joint, cov);

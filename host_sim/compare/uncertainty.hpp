@@ -22,11 +22,12 @@ std::vector<Shape> shapes_of(const Model& model, size_t first = 0);
 // The difference step of a shape: relative, towards the side that its bounds leave.
 double step_of(const Shape& shape, double value);
 
-// All numbers that were fitted, as one vector: free coefficients, then shapes.
+// All numbers that were fitted, as one vector: free coefficients, then shapes, then offsets.
 struct Joint {
-    Eigen::MatrixXd slopes; // of the residual's negative: columns and shapes
+    Eigen::MatrixXd slopes; // of the residual's negative: columns, shapes, offsets
     std::vector<int> free;
     std::vector<Shape> shapes;
+    std::vector<size_t> moved; // captures whose offset was fitted
 };
 
 // Fills in the parameters of a fit whose model, coefficients, values and residual are there, with

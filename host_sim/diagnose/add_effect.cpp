@@ -1,6 +1,7 @@
 #include "diagnose/add_effect.hpp"
 
 #include "common/error.hpp"
+#include "compare/homing_search.hpp"
 #include "effects/catalogue.hpp"
 
 #include <algorithm>
@@ -27,10 +28,13 @@ Model with_term(Model model, const EffectTerm& term) {
     return model;
 }
 
-// The capture with the largest residual, as a search sees it: its used points only.
+// One capture as a search sees it: its used points only.
 struct SearchData {
+    const MotionView& motion;
     Vector time_s, position, velocity, acceleration, torque, residual;
-    size_t capture = 0;
+    Search search() const {
+        return {motion, time_s, position, velocity, acceleration, torque, residual};
+    }
 };
 
 Vector used_of(const Vector& values, const PreparedMotion& m) {
@@ -42,46 +46,80 @@ Vector used_of(const Vector& values, const PreparedMotion& m) {
     return out;
 }
 
-SearchData search_data(const FitResult& fitted, const std::vector<PreparedMotion>& motions) {
-    SearchData out;
-    Eigen::Index row = 0, best_row = 0;
-    double best = -1;
-    for (size_t i = 0; i < motions.size(); ++i) {
-        const Eigen::Index n = motions[i].used_count();
-        const double power = fitted.residual.segment(row, n).squaredNorm();
-        if (power > best) best = power, out.capture = i, best_row = row;
-        row += n;
+SearchData search_data(const FitResult& fitted, const Assembler& assembler, size_t capture) {
+    const PreparedMotion& m = assembler.motions()[capture];
+    const Rows rows = assembler.rows_of(capture);
+    const Vector time = Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1));
+    return {assembler.views()[capture],
+            used_of(time, m),
+            used_of(m.position, m),
+            used_of(m.velocity, m),
+            used_of(m.acceleration, m),
+            used_of(m.torque, m),
+            fitted.residual.segment(rows.first, rows.count)};
+}
+
+// Where a search looks: at the capture with the largest residual, then at the one with the longest
+// way, which knows an order best.
+std::vector<size_t> searched_captures(const FitResult& fitted, const Assembler& assembler) {
+    size_t loudest = 0, longest = 0;
+    double most = -1;
+    for (size_t i = 0; i < assembler.views().size(); ++i) {
+        const Rows rows = assembler.rows_of(i);
+        const double power = fitted.residual.segment(rows.first, rows.count).squaredNorm();
+        if (power > most) most = power, loudest = i;
+        if (assembler.views()[i].travel() > assembler.views()[longest].travel()) longest = i;
     }
-    const PreparedMotion& m = motions[out.capture];
-    out.time_s =
-        used_of(Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1)), m);
-    out.position = used_of(m.position, m), out.velocity = used_of(m.velocity, m);
-    out.acceleration = used_of(m.acceleration, m), out.torque = used_of(m.torque, m);
-    out.residual = fitted.residual.segment(best_row, m.used_count());
+    return longest == loudest ? std::vector{loudest} : std::vector{loudest, longest};
+}
+
+// A model with one place of the search, where it moves the captures' zeros to, and what it leaves.
+struct Start {
+    Model model;
+    Homing homing;
+    double error = 0;
+};
+
+Start start_at(Model model, const Homing& homing, Assembler& assembler) {
+    assembler.set_homing(homing);
+    Start out{std::move(model), {}, 0};
+    out.homing = find_homing(out.model, assembler);
+    assembler.set_homing(out.homing);
+    out.error = linear_error(out.model, assembler);
+    return out;
+}
+
+std::vector<Start> starts_of(const FitResult& fitted, const Effect& effect, const Model& base,
+                             Assembler& assembler) {
+    std::vector<Start> out;
+    const std::vector<size_t> captures = searched_captures(fitted, assembler);
+    for (size_t capture : captures) {
+        const SearchData data = search_data(fitted, assembler, capture);
+        for (const EffectTerm& term : effect.starts(data.search())) {
+            const bool order = effect.phase_per_position(term, base.motion) > 0;
+            if (capture != captures.front() && !order) continue;
+            out.push_back(start_at(with_term(base, term), fitted.homing, assembler));
+        }
+    }
     return out;
 }
 
 } // namespace
 
 FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& assembler) {
-    const SearchData data = search_data(fitted, assembler.motions());
     assembler.set_artifact(fitted.artifact);
+    assembler.set_homing(fitted.homing);
     assembler.set_context(fitted.model);
-    const MotionView& motion = assembler.views()[data.capture];
     std::string why; // none of the captures shows it
     for (const MotionView& view : assembler.views())
         if (why = effect.cannot_show(view); why.empty()) break;
     if (!why.empty())
         throw Refusal(effect.info().name + " cannot be seen: " + why, "a move that shows it");
-    const Search search{motion,      data.time_s,  data.position, data.velocity, data.acceleration,
-                        data.torque, data.residual};
     const Model base = without_replaced(fitted.model, effect.info());
-    std::vector<std::pair<double, EffectTerm>> starts;
-    for (const EffectTerm& term : effect.starts(search))
-        starts.push_back({linear_error(with_term(base, term), assembler), term});
+    std::vector<Start> starts = starts_of(fitted, effect, base, assembler);
     std::stable_sort(starts.begin(), starts.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::erase_if(starts, [](const auto& s) { return !std::isfinite(s.first); });
+                     [](const Start& a, const Start& b) { return a.error < b.error; });
+    std::erase_if(starts, [](const Start& s) { return !std::isfinite(s.error); });
     if (starts.empty())
         throw Refusal(effect.info().name + " cannot be told from what the model has",
                       "a move in both directions, several speeds, a longer travel");
@@ -93,8 +131,9 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
                            .start_values = false};
     FitResult best;
     best.torque_error = INFINITY;
-    for (const auto& [error, term] : starts) {
-        FitResult tried = fit(with_term(base, term), assembler, quick);
+    for (const Start& start : starts) {
+        assembler.set_homing(start.homing);
+        FitResult tried = fit(start.model, assembler, quick);
         if (tried.torque_error < best.torque_error) best = std::move(tried);
     }
     // The shapes that the model already had are moved too, where the effect is of any use.
@@ -103,7 +142,8 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     last.believed_terms = base.effects.size();
     last.start_values = false;
     if (!useful) last.frozen_terms = base.effects.size();
-    return fit(best.model, assembler, last);
+    assembler.set_homing(best.homing);
+    return home_again(fit(best.model, assembler, last), assembler, last);
 }
 
 Addition add_term(const Model& model, const EffectTerm& term,
@@ -112,12 +152,12 @@ Addition add_term(const Model& model, const EffectTerm& term,
     Addition out;
     // A model that lacks much may not have a fit: its inertia would come out negative.
     try {
-        out.before = fit(model, assembler);
+        out.before = fit_homed(model, assembler);
     } catch (const Refusal&) {
         out.before.model = model;
         out.before.torque_error = NAN;
     }
-    out.after = fit(with_term(out.before.model, term), assembler);
+    out.after = fit_homed(with_term(out.before.model, term), assembler);
     return out;
 }
 
@@ -129,7 +169,7 @@ Addition add_effect(const Model& model, const std::string& name,
         throw UsageError(name + " cannot be added: " + why);
     Assembler assembler(motions);
     Addition out;
-    out.before = fit(model, assembler);
+    out.before = fit_homed(model, assembler);
     out.after = fit_with(out.before, *effect, assembler);
     return out;
 }

@@ -57,9 +57,9 @@ double variation(const Eigen::VectorXd& torque) {
 // The error is a share of the torque that arrives. A law that lets little of it through has to
 // explain what arrives, and something has to arrive.
 bool far_less_torque(const Candidate& c, const FitResult& before) {
-    if (c.fit.torque.norm() >= kLittleTorque * before.torque.norm()) return false;
-    return c.error_after > kAnyway * before.torque_error ||
-           variation(c.fit.torque) < kAnyVariation * variation(before.torque);
+    if (variation(c.fit.torque) < kAnyVariation * variation(before.torque)) return true;
+    return c.fit.torque.norm() < kLittleTorque * before.torque.norm() &&
+           c.error_after > kAnyway * before.torque_error;
 }
 
 // What keeps a fitted candidate from being an answer, or "".

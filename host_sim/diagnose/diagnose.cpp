@@ -1,6 +1,7 @@
 #include "diagnose/diagnose.hpp"
 
 #include "common/error.hpp"
+#include "compare/homing_search.hpp"
 #include "diagnose/advice.hpp"
 #include "diagnose/evidence.hpp"
 #include "diagnose/structure.hpp"
@@ -145,11 +146,11 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
                    const DiagnoseOptions& options) {
     Assembler assembler(motions);
     Diagnosis d;
-    d.before = without_artifact(fit(model, assembler), assembler, 2);
+    d.before = without_artifact(fit_homed(model, assembler), assembler, 2);
     d.error_before = d.before.torque_error;
     d.blocks_before = held_out_blocks(d.before, assembler);
     d.validation_error_before = error_of(d.blocks_before);
-    const NoiseFloor floor = noise_floor_of_all(d.before.model, motions);
+    const NoiseFloor floor = noise_floor_of_all(d.before.model, motions, d.before.homing);
     d.noise_floor = floor.ratio, d.floor_from_repetition = floor.from_repetition;
     for (const PreparedMotion& m : motions)
         d.band_Hz = std::max(d.band_Hz, m.band_Hz);

@@ -72,6 +72,7 @@ struct Refinement {
     std::vector<Rung> ladder;
     std::vector<std::string> removed; // effects that a later one made needless
     FitResult result;
+    Homing validation_homing; // of the validation captures, against the result
     Diagnosis last;
     double noise_floor = 0;
 };

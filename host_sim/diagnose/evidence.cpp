@@ -71,13 +71,4 @@ double gain_z(const std::vector<double>& before, const std::vector<double>& afte
     return spread > 0 ? gain / spread : 0;
 }
 
-double effective_count(const Vector& residual) {
-    const Spectrum spectrum = power_spectrum(residual, 1);
-    const double total = spectrum.power.sum(), square = spectrum.power.squaredNorm();
-    if (!(square > 0)) return 1;
-    // White noise: N/2 bins whose powers scatter like an exponential, so that Σ²/Σ(²) is N/4.
-    const double count = 4 * total * total / square;
-    return std::clamp(count, 4.0, double(residual.size()));
-}
-
 } // namespace servoid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/regression.hpp"
+#include "compare/spectrum.hpp" // effective_count
 
 #include <Eigen/Core>
 
@@ -23,9 +24,5 @@ double error_of(const std::vector<double>& blocks);
 
 // By how many of its standard errors, from block to block, the sum of `before` exceeds `after`.
 double gain_z(const std::vector<double>& before, const std::vector<double>& after);
-
-// How many independent numbers a residual holds, from the flatness of its spectrum: N for white
-// noise up to the Nyquist frequency, few for a residual that repeats or drifts.
-double effective_count(const Eigen::VectorXd& residual);
 
 } // namespace servoid

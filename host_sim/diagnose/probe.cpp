@@ -22,7 +22,7 @@ struct Scene {
     Vector time, position, velocity, acceleration;
 };
 
-Scene scene_of(const std::vector<PreparedMotion>& motions) {
+Scene scene_of(const std::vector<PreparedMotion>& motions, const Homing& homing) {
     Scene out;
     Eigen::Index rows = 0;
     for (const PreparedMotion& m : motions)
@@ -30,14 +30,16 @@ Scene scene_of(const std::vector<PreparedMotion>& motions) {
     for (Vector* v : {&out.time, &out.position, &out.velocity, &out.acceleration})
         *v = Vector::Zero(rows);
     Eigen::Index row = 0;
-    for (const PreparedMotion& m : motions)
+    for (size_t i = 0; i < motions.size(); ++i) {
+        const PreparedMotion& m = motions[i];
         for (Eigen::Index k = 0; k < m.grid.count; ++k) {
             if (!m.used[size_t(k)]) continue;
             out.time[row] = m.grid.at(k);
-            if (m.position.size()) out.position[row] = m.position[k];
+            if (m.position.size()) out.position[row] = m.position[k] + homing.of(i);
             out.velocity[row] = m.velocity[k], out.acceleration[row] = m.acceleration[k];
             ++row;
         }
+    }
     return out;
 }
 
@@ -97,7 +99,7 @@ std::vector<Basis> bases(const Scene& s) {
 
 std::vector<Probe> probe_residual(const FitResult& fit, Assembler& assembler) {
     const Matrix base = joint_slopes(fit, assembler);
-    const Scene scene = scene_of(assembler.motions());
+    const Scene scene = scene_of(assembler.motions(), fit.homing);
     std::vector<Probe> out;
     for (const Basis& b : bases(scene)) {
         Matrix alone(base.rows(), base.cols() + 1);

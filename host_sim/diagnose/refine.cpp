@@ -1,3 +1,4 @@
+#include "compare/homing_search.hpp"
 #include "diagnose/add_effect.hpp"
 #include "diagnose/diagnose.hpp"
 #include "diagnose/evidence.hpp"
@@ -17,13 +18,16 @@ constexpr double kWorthAdding = 0.03; // of the held-out power of the residual
 constexpr double kClearly = 0.08;     // the same, for an effect that the evidence alone leaves open
 constexpr double kLost = 0.01;        // an effect whose removal costs less is needless
 
-// On captures that were never fitted, or on blocks that were not where there are none.
+// On captures that were never fitted, each at its own position zero, or on blocks that were not
+// where there are none.
 double validation_error(const FitResult& fit, Assembler& assembler,
                         const std::vector<PreparedMotion>& validation) {
     if (validation.empty()) return held_out_error(fit, assembler);
     double residual = 0, torque = 0;
-    for (const PreparedMotion& m : validation) {
-        const Eigen::VectorXd r = residual_torque(fit.model, m);
+    const Homing homing = homing_against(fit.model, validation, 0);
+    for (size_t i = 0; i < validation.size(); ++i) {
+        const PreparedMotion& m = validation[i];
+        const Eigen::VectorXd r = residual_torque(at_zero(fit.model, homing.of(i)), m);
         for (Eigen::Index k = 0; k < r.size(); ++k)
             if (m.used[size_t(k)]) residual += r[k] * r[k], torque += m.torque[k] * m.torque[k];
     }
@@ -65,6 +69,7 @@ void prune(Refinement& r, Assembler& assembler, size_t given) {
         smaller.effects.erase(smaller.effects.begin() + long(i));
         if (leaves_orphan(smaller)) continue;
         try {
+            assembler.set_homing(r.result.homing);
             const FitResult without = fit(smaller, assembler);
             const double before = held_out_error(r.result, assembler);
             const double after = held_out_error(without, assembler);
@@ -104,6 +109,7 @@ Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions
     r.last = diagnose(r.result.model, motions, options);
     r.verdict = r.last.verdict;
     r.noise_floor = r.last.noise_floor;
+    r.validation_homing = homing_against(r.result.model, validation, 0);
     return r;
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "compare/compare.hpp"
+#include "compare/homing_search.hpp"
 #include "diagnose/evidence.hpp"
 #include "diagnose/torque_match.hpp"
 
@@ -117,6 +118,7 @@ std::vector<Suspicion> capture_suspicions(const Model& believed, Assembler& asse
 std::vector<Suspicion> suspicions(const Model& believed,
                                   const std::vector<PreparedMotion>& motions) {
     Assembler assembler(motions);
+    home(believed, assembler);
     std::vector<Suspicion> out = capture_suspicions(believed, assembler);
     try {
         for (Suspicion& s : belief_suspicions(believed, fit(believed, assembler), assembler))

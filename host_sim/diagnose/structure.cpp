@@ -20,10 +20,12 @@ double share_in_noise(const FitResult& fitted, const std::string& name, Assemble
     const double noise = fitted.residual.norm() / std::sqrt(double(fitted.residual.size()));
     double most = 0;
     for (int i = 0; i < kTwins; ++i) {
-        const auto twins = make_twins(fitted.model, assembler.motions(), noise, 301 + unsigned(i));
+        const auto twins = make_twins({fitted.model, fitted.homing}, assembler.motions(), noise,
+                                      301 + unsigned(i));
         if (!twins) return 0;
         Assembler own(twins->motions);
         own.set_artifact(fitted.artifact);
+        own.set_homing(fitted.homing);
         try {
             for (const Probe& p : probe_residual(fit(fitted.model, own), own))
                 if (p.name == name) most = std::max(most, p.explained);

@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "compare/compare.hpp"
+#include "compare/homing_search.hpp"
 #include "compare/linear_fit.hpp"
 #include "compare/loop_twin.hpp"
 #include "compare/noise.hpp"
@@ -32,13 +33,14 @@ bool moves_alike(const PreparedMotion& twin, const PreparedMotion& measured) {
     return std::isfinite(ratio) && ratio > 0.7 && ratio < 1.4;
 }
 
-Vector residual_of(const Model& model, const TwinSet& twins) {
+Vector residual_of(const HomedModel& model, const TwinSet& twins) {
     Eigen::Index rows = 0, row = 0;
     for (const PreparedMotion& m : twins.motions)
         rows += m.used_count();
     Vector out(rows);
-    for (const PreparedMotion& m : twins.motions) {
-        const Vector all = residual_torque(model, m);
+    for (size_t i = 0; i < twins.motions.size(); ++i) {
+        const PreparedMotion& m = twins.motions[i];
+        const Vector all = residual_torque(model.at(i), m);
         for (Eigen::Index k = 0; k < all.size(); ++k)
             if (m.used[size_t(k)]) out[row++] = all[k];
     }
@@ -62,7 +64,8 @@ struct Left {
     double chance = 0; // ‖·‖²
 };
 
-Left left_by_twins(const Model& model, const std::vector<PreparedMotion>& motions, double noise) {
+Left left_by_twins(const HomedModel& model, const std::vector<PreparedMotion>& motions,
+                   double noise) {
     const int count = noise > 0 ? kArtifactTwins : 1;
     Vector sum;
     double powers = 0;
@@ -109,7 +112,8 @@ Shown artifact_in(const FitResult& fitted, Assembler& assembler) {
     const Vector raw = fitted.residual + fitted.artifact;
     const Matrix slopes = joint_slopes(fitted, assembler);
     const auto along = [&](double noise) {
-        return as_shown(raw, left_by_twins(fitted.model, assembler.motions(), noise), slopes);
+        return as_shown(
+            raw, left_by_twins({fitted.model, fitted.homing}, assembler.motions(), noise), slopes);
     };
     const Shown quiet = along(0);
     if (quiet.explained > kExplainsAll) return quiet;
@@ -127,16 +131,21 @@ std::optional<Capture> simulated(const Model& model, const Capture& recorded,
     }
 }
 
+// Of a fit that goes on from another.
+FitOptions options_of(const FitResult& fitted) {
+    FitOptions options;
+    options.believed_terms = fitted.believed_terms;
+    options.start_values = false;
+    return options;
+}
+
 // One round: the artifact of the fitted model out of the torque, and the fit again.
 std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assembler) {
     const Shown shown = artifact_in(fitted, assembler);
     if (shown.artifact.size() == 0) return std::nullopt;
     assembler.set_artifact(shown.artifact);
-    FitOptions options;
-    options.believed_terms = fitted.believed_terms;
-    options.start_values = false;
     try {
-        FitResult out = fit(fitted.model, assembler, options);
+        FitResult out = fit(fitted.model, assembler, options_of(fitted));
         out.doubt = shown.doubt / rms(out.torque);
         return out;
     } catch (const Refusal&) {
@@ -146,8 +155,9 @@ std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assemble
 
 } // namespace
 
-std::optional<TwinSet> make_twins(const Model& model, const std::vector<PreparedMotion>& motions,
-                                  double noise, unsigned long seed) {
+std::optional<TwinSet> make_twins(const HomedModel& model,
+                                  const std::vector<PreparedMotion>& motions, double noise,
+                                  unsigned long seed) {
     TwinSet out;
     for (size_t i = 0; i < motions.size(); ++i) {
         const PreparedMotion& m = motions[i];
@@ -155,7 +165,7 @@ std::optional<TwinSet> make_twins(const Model& model, const std::vector<Prepared
         Capture recorded = *m.capture;
         recorded.period_s = m.period_s;
         const TwinNoise white{noise / m.low_pass->noise_gain(0), seed + 1000 * i};
-        std::optional<Capture> twin = simulated(model, recorded, white);
+        std::optional<Capture> twin = simulated(model.at(i), recorded, white);
         if (!twin) return std::nullopt;
         out.captures.push_back(std::make_unique<Capture>(std::move(*twin)));
         out.motions.push_back(prepare_like(m, *out.captures.back()));
@@ -175,18 +185,22 @@ FitResult without_artifact(const FitResult& fitted, Assembler& assembler, int ro
         if (gain > kWorthARound) break;
     }
     assembler.set_artifact(best.artifact);
-    return best;
+    assembler.set_homing(best.homing);
+    // What the method leaves may have hidden how far the zeros are apart.
+    const FitOptions options = options_of(best);
+    return home_again(std::move(best), assembler, options);
 }
 
 std::optional<double> gain_from_noise(const FitResult& fitted, const Effect& effect,
                                       Assembler& assembler) {
     double most = 0;
     for (int i = 0; i < kNoiseTwins; ++i) {
-        const auto twins =
-            make_twins(fitted.model, assembler.motions(), rms(fitted.residual), 201 + unsigned(i));
+        const auto twins = make_twins({fitted.model, fitted.homing}, assembler.motions(),
+                                      rms(fitted.residual), 201 + unsigned(i));
         if (!twins) return std::nullopt;
         Assembler own(twins->motions);
         own.set_artifact(fitted.artifact);
+        own.set_homing(fitted.homing);
         try {
             const FitResult before = fit(fitted.model, own);
             const FitResult after = fit_with(before, effect, own);

@@ -21,10 +21,19 @@ struct TwinSet {
     std::vector<PreparedMotion> motions;
 };
 
+// A model and where the captures' position zeros lie.
+struct HomedModel {
+    const Model& model;
+    const Homing& homing;
+    Model at(size_t capture) const { return at_zero(model, homing.of(capture)); }
+};
+
 // noise: standard deviation of the torque noise in band, N·m or N. Nothing where a capture cannot
 // be simulated (loop_twin.hpp), or where the simulated axis moves unlike the measured one.
-std::optional<TwinSet> make_twins(const Model& model, const std::vector<PreparedMotion>& motions,
-                                  double noise, unsigned long seed);
+// Each at its capture's position zero.
+std::optional<TwinSet> make_twins(const HomedModel& model,
+                                  const std::vector<PreparedMotion>& motions, double noise,
+                                  unsigned long seed);
 
 // The fit again, with what the method leaves of the fitted model taken out of the torque, as far as
 // the residual shows it. The fit as it was where there are no twins or they do not help.

@@ -179,6 +179,11 @@ class Effect {
     // Whether the columns depend on what the rest of the model says (MotionView's last members).
     virtual bool depends_on_model(const EffectTerm& term) const { return uses_torque(term); }
 
+    // By how many radians its phase turns when the position zero moves by one unit: κ of a wave of
+    // the position, whose two coefficients are A cos φ and A sin φ, φ its parameter `phase`. 0:
+    // none.
+    virtual double phase_per_position(const EffectTerm&, Motion) const { return 0; }
+
     // Parameters that do not enter linearly, and where a search for them starts (every other
     // parameter of the terms is filled in too). Empty starts: this motion cannot show the effect.
     virtual std::vector<std::string> shape_keys(const EffectTerm&) const { return {}; }

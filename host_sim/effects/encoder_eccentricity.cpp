@@ -35,6 +35,7 @@ class EncoderEccentricity : public WaveEffect {
         axis.sensor_error = [=](double position) { return e * std::sin(position + phase); };
     }
 
+    double phase_per_position(const EffectTerm&, Motion) const override { return 1; }
     bool depends_on_model(const EffectTerm&) const override { return true; }
     // The true angle is θ − e sin(θ+φ), so v is less by e cos(θ+φ) v and a by
     // e (cos(θ+φ) a − sin(θ+φ) v²): to first order in e.

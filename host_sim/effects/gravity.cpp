@@ -38,6 +38,8 @@ class Gravity : public WaveEffect {
             [=](const AxisPoint& p) { return torque * std::sin(p.position + phase); });
     }
 
+    double phase_per_position(const EffectTerm&, Motion) const override { return 1; }
+
     Eigen::MatrixXd columns(const EffectTerm&, const MotionView& motion) const override {
         if (motion.position.size() == 0) return Eigen::MatrixXd::Zero(motion.size(), 2);
         Eigen::MatrixXd out(motion.size(), 2);

@@ -51,6 +51,10 @@ std::vector<std::string> OrderEffect::shape_keys(const EffectTerm& term) const {
     return {holds_period(term) ? period_info().key : "order"};
 }
 
+double OrderEffect::phase_per_position(const EffectTerm& term, Motion kind) const {
+    return wave_number(cycles_of(term), kind);
+}
+
 std::vector<double> strongest_orders(const OrderScan& scan, int most) {
     const Search& s = scan.search;
     if (s.position.size() == 0) return {};

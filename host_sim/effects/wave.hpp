@@ -28,6 +28,11 @@ class WaveEffect : public Effect {
         term.parameters["phase"] = std::atan2(c[1], c[0]);
     }
 
+    // Amplitude and phase share two coefficients: neither stays where one of them moves.
+    bool linear_fixed(const EffectTerm& term, int) const override {
+        return term.is_fixed(amplitude_key()) || term.is_fixed("phase");
+    }
+
   protected:
     virtual const char* amplitude_key() const { return "amplitude"; }
 };
@@ -64,6 +69,7 @@ class OrderEffect : public WaveEffect {
   public:
     std::vector<ParameterInfo> parameters(const EffectTerm& term) const override;
     std::vector<std::string> shape_keys(const EffectTerm& term) const override;
+    double phase_per_position(const EffectTerm& term, Motion kind) const override;
     double search_price() const override { return 5; }
     std::vector<EffectTerm> starts(const Search& search) const override;
     std::string implausible(const EffectTerm& term, const MotionView& motion) const override;

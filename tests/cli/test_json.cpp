@@ -126,6 +126,64 @@ TEST(Json, Friction) {
     EXPECT_NEAR(json.at("viscous").at("value").get<double>(), 0.75e-4, 0.03 * 0.75e-4);
 }
 
+// The same capture, read by an encoder whose zero lies elsewhere.
+std::string with_other_zero(const Folder& folder, const std::string& csv, const std::string& name,
+                            double zero) {
+    std::ifstream in(csv);
+    std::ofstream out(folder / name);
+    out.precision(12);
+    std::string line;
+    std::vector<bool> is_position;
+    while (std::getline(in, line)) {
+        std::stringstream cells(line);
+        std::string cell;
+        if (line.starts_with("#") || is_position.empty()) {
+            out << line << "\n";
+            while (!line.starts_with("#") && std::getline(cells, cell, ','))
+                is_position.push_back(cell.starts_with("position"));
+            continue;
+        }
+        for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
+            out << (i ? "," : "");
+            is_position[i] ? out << std::stod(cell) - zero : out << cell;
+        }
+        out << "\n";
+    }
+    return folder / name;
+}
+
+TEST(Json, PositionZeroOfACaptureThatWasNotHomed) {
+    const Folder folder;
+    const std::string known = folder / "known.toml", truth = folder / "truth.toml";
+    const std::string cogging = "[[effects.cogging]]\namplitude = 0.01\norder = 6.0\nphase = 0.7\n";
+    std::ofstream(known) << text_of(example("system1.toml"));
+    std::ofstream(truth) << text_of(example("system1.toml")) << cogging;
+    const std::string a = simulated(folder, truth, move, "a.csv");
+    const std::string b = with_other_zero(folder, a, "b.csv", 0.3);
+    const auto expect_zero = [&](const Json& json, const std::string& file) {
+        ASSERT_TRUE(json.contains("homing")) << json.at("schema");
+        ASSERT_EQ(json.at("homing").size(), 1u);
+        const Json& one = json.at("homing").at(0);
+        EXPECT_EQ(one.at("capture"), file);
+        expect_parameter(one.at("offset"), "rad");
+        const double period = 2 * std::acos(-1.0) / 6;
+        EXPECT_NEAR(std::remainder(one.at("offset").at("value").get<double>() - 0.3, period), 0,
+                    0.01);
+    };
+    expect_zero(json_of(run({"diagnose", known, a, b, "--json"})), b);
+    expect_zero(json_of(run({"refine", known, a, "--validate", b, "--json"})), b);
+    expect_zero(json_of(run({"add", "cogging", known, a, b, "--json"})), b);
+    expect_zero(json_of(run({"compare", truth, a, b, "--json"})), b);
+    EXPECT_NE(run({"diagnose", known, a, b}).out.find("not homed"), std::string::npos);
+    EXPECT_FALSE(json_of(run({"compare", truth, a, a, "--json"})).contains("homing"));
+    const Json alone = json_of(run({"compare", truth, b, "--json"}));
+    EXPECT_FALSE(alone.contains("homing"));
+    ASSERT_EQ(alone.at("warnings").size(), 1u);
+    EXPECT_NE(alone.at("warnings").at(0).get<std::string>().find("position zero"),
+              std::string::npos);
+    EXPECT_TRUE(json_of(run({"compare", truth, a, "--json"})).at("warnings").empty());
+}
+
 TEST(Json, SimulateAndEffects) {
     const Folder folder;
     const Json done = json_of(run({"simulate", example("system1.toml"), "--experiment", "sine",

@@ -76,6 +76,22 @@ double frf_error(const Model& model, const PreparedMotion& m, int from_Hz, int t
     return std::sqrt(miss / all);
 }
 
+Capture rows_of(Capture c, size_t from, size_t to) {
+    for (auto* v : {&c.time_s, &c.torque_ref, &c.position, &c.position_ref})
+        *v = std::vector<double>(v->begin() + long(from), v->begin() + long(to));
+    for (double& t : c.time_s)
+        t -= double(from) * c.sample_time_s;
+    return c;
+}
+
+// By an encoder whose zero lies at `zero`.
+Capture read_from(Capture c, double zero) {
+    for (auto* v : {&c.position, &c.position_ref})
+        for (double& p : *v)
+            p -= zero;
+    return c;
+}
+
 double value(const FitResult& fit, const std::string& name) {
     for (const FittedParameter& p : fit.parameters)
         if (p.name == name) return p.estimate.value;
@@ -104,6 +120,41 @@ TEST(Diagnosis, EmpsFromMassAndOffset) {
                 period_mm);
     EXPECT_NEAR(period_mm, 2.5, 0.025);
     EXPECT_LE(r.result.torque_error, 0.026);
+}
+
+// Three periods are fitted, the rest is validated: once as it is, once read from another zero.
+TEST(Diagnosis, EmpsValidatesOnARecordingThatWasNotHomed) {
+    SERVOID_SKIP_WITHOUT(measured::emps_csv());
+    const Capture all = read_capture(measured::emps_csv());
+    constexpr size_t kThreePeriods = 3 * 6240;
+    const double zero_m = 0.8e-3; // of a ripple every 2.5 mm
+    const std::vector<Capture> captures = {
+        rows_of(all, 0, kThreePeriods), rows_of(all, kThreePeriods, all.rows()),
+        read_from(rows_of(all, kThreePeriods, all.rows()), zero_m)};
+    MotionOptions options;
+    options.band_Hz = 40;
+    const auto m = prepare_all(captures, options);
+    const Refinement homed = refine(measured::emps_model(), {m[0]}, {m[1]});
+    const Refinement away = refine(measured::emps_model(), {m[0]}, {m[2]});
+    EXPECT_TRUE(homed.validation_homing.all_moved().empty());
+    ASSERT_TRUE(has(homed, "cogging"));
+    ASSERT_TRUE(has(away, "cogging"));
+    ASSERT_TRUE(away.validation_homing.moved(0));
+    const Estimate zero = away.validation_homing.offset[0];
+    const double homed_error = homed.ladder.back().validation_error;
+    const double away_error = away.ladder.back().validation_error;
+    std::printf("figure: EMPS, validated error %.3g %%, read from another zero %.3g %%, which is "
+                "found at %.4f +- %.4f mm (0.8)\n",
+                100 * homed_error, 100 * away_error, 1e3 * zero.value, 1e3 * zero.std);
+    EXPECT_NEAR(away_error, homed_error, 0.02 * homed_error);
+    const double off = std::remainder(zero.value - zero_m, 1 / value(away.result, "cogging.order"));
+    EXPECT_LT(std::abs(off), 3 * zero.std);
+    // Fitted together, the zero is found too, and changes nothing else.
+    const Diagnosis d = diagnose(away.result.model, {m[0], m[2]});
+    ASSERT_TRUE(d.before.homing.moved(1));
+    const Diagnosis same = diagnose(away.result.model, {m[0], m[1]});
+    EXPECT_TRUE(same.before.homing.all_moved().empty());
+    EXPECT_NEAR(d.error_before, same.error_before, 0.02 * same.error_before);
 }
 
 TEST(Diagnosis, MotorBenchIsAnElasticLoadBehindADeadTime) {
