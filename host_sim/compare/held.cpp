@@ -6,9 +6,10 @@ namespace servoid {
 
 namespace {
 
-// Than the quickest of its neighbours. A turning point passes a way in 7.5 times what the third
-// stretch of that way beside it takes: it is not held.
-constexpr double kLonger = 8;
+// Than the quickest of its neighbours, which a sample is added to: a passage is known to one. A
+// turning point passes a way in at most 7.5 times what the third stretch beside it takes, so a slow
+// one counts too; nothing is lost by that.
+constexpr double kLonger = 6;
 constexpr size_t kNeighbours = 3; // on each side
 
 struct Stretch {
@@ -53,7 +54,6 @@ std::vector<Interval> held_intervals(const Eigen::VectorXd& position, double ste
         const double around = std::isfinite(before) && std::isfinite(after)
                                   ? std::max(before, after)
                                   : std::min(before, after);
-        // A passage is known to a sample.
         if (all[k].length() < kLonger * (around + 1) || all[k].length() * step_s < shortest_s)
             continue;
         out.push_back({double(all[k].from) * step_s, double(all[k].to - 1) * step_s});

@@ -19,7 +19,8 @@ struct Interval {
 };
 
 // Stretches in which an evenly sampled position stays within `within` for much longer than the same
-// way takes before or after it, and for at least `shortest_s`. Times from the first sample.
+// way takes before or after it, and for at least `shortest_s`. Times from the first sample. The
+// turning point of a slow motion may be among them.
 std::vector<Interval> held_intervals(const Eigen::VectorXd& position, double step_s, double within,
                                      double shortest_s);
 

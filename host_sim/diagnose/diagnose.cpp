@@ -4,6 +4,7 @@
 #include "compare/homing_search.hpp"
 #include "diagnose/advice.hpp"
 #include "diagnose/evidence.hpp"
+#include "diagnose/outside.hpp"
 #include "diagnose/structure.hpp"
 #include "diagnose/twin.hpp"
 #include "diagnose/weigh.hpp"
@@ -108,6 +109,11 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
     if (!any || luck || gain < kLeastGain || slight || none > 0.5)
         return without_candidate(d, assembler);
     if (look_ahead && unexplained(d, d.candidates.front(), assembler)) return Verdict::unknown;
+    if (look_ahead)
+        if (const auto rival = outside_rival(d, d.candidates.front(), assembler)) {
+            d.outside = rival->law;
+            return rival->z > kTellsApart ? Verdict::unknown : Verdict::ambiguous;
+        }
     return family_probability(d) >= kSure ? Verdict::missing : Verdict::ambiguous;
 }
 

@@ -42,8 +42,10 @@ struct Diagnosis {
     double noise_floor = 0;
     bool floor_from_repetition = false;
     std::optional<Everyday> everyday;
-    std::vector<Candidate> candidates;  // best first, every effect that was tried
-    std::vector<Probe> probes;          // what the residual depends on, catalogue or not
+    std::vector<Candidate> candidates; // best first, every effect that was tried
+    std::vector<Probe> probes;         // what the residual depends on, catalogue or not
+    std::string
+        outside; // a law of no catalogue that explains as much as the first candidate, or ""
     std::optional<NextExperiment> next; // what tells the rivals of an ambiguous verdict apart
     std::vector<Unseen> cannot_show;    // what this capture neither shows nor excludes
     std::optional<Unseen> shortage;     // of an insufficient verdict

@@ -58,7 +58,7 @@ double left_of(const Capture& c, const std::string& hidden, double band_Hz) {
     if (hidden != "constant_torque") laws.push_back(Vector::Ones(n - 16));
     const double slow = 1e-3 * speed.cwiseAbs().maxCoeff();
     const Vector rests = smoothed((speed.array().abs() < slow).cast<double>().matrix(), h, band_Hz);
-    const Vector moving = (rests.array() < 0.05).cast<double>();
+    const Vector moving = (rests.array() < 0.01).cast<double>();
     const Vector target = smoothed(torque, h, band_Hz).cwiseProduct(moving);
     Eigen::MatrixXd columns(target.size(), Eigen::Index(laws.size()));
     for (Eigen::Index i = 0; i < columns.cols(); ++i)
