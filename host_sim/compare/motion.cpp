@@ -262,6 +262,8 @@ PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture) 
     out.capture = &capture;
     differentiate(capture, out);
     fill_grid(out, like.input);
+    out.rests = moving(out);
+    out.rests.flip();
     return out;
 }
 

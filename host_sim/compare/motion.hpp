@@ -35,7 +35,8 @@ struct PreparedMotion {
     Grid grid;                                        // where torque and columns are compared
     Eigen::VectorXd torque;                           // N·m or N on the grid
     Eigen::VectorXd position, velocity, acceleration; // on the grid
-    std::vector<bool> used; // false: standing still, where friction may be anything up to Tc
+    std::vector<bool> used;  // false: standing still, where friction may be anything up to Tc
+    std::vector<bool> rests; // of a twin: it stands still where the measured axis does not
     double band_Hz = 0;
     BandLimit band_limited_by = BandLimit::asked;
     double smoothing_Hz = 0;        // band of `motion`
@@ -65,7 +66,7 @@ struct PreparedMotion {
 // The motion and torque of one capture. Throws Refusal where there is too little of either.
 PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& options);
 // Another capture of the same rows through the very same filters, on the same grid; `used` as
-// there.
+// there, and `rests` where this one should not be used.
 PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture);
 
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency

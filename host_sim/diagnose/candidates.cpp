@@ -54,12 +54,13 @@ double variation(const Eigen::VectorXd& torque) {
     return (torque.array() - torque.mean()).matrix().norm();
 }
 
-// The error is a share of the torque that arrives. A law that lets little of it through has to
-// explain what arrives, and something has to arrive.
+// The error is a share of the torque that arrives: a law that lets little through explains little.
+// Only a limit may cut most of it, where it explains what arrives, and where something does.
 bool far_less_torque(const Candidate& c, const FitResult& before) {
     if (variation(c.fit.torque) < kAnyVariation * variation(before.torque)) return true;
-    return c.fit.torque.norm() < kLittleTorque * before.torque.norm() &&
-           c.error_after > kAnyway * before.torque_error;
+    const bool explains =
+        c.effect == "torque_saturation" && c.error_after < kAnyway * before.torque_error;
+    return !explains && c.fit.torque.norm() < kLittleTorque * before.torque.norm();
 }
 
 // What keeps a fitted candidate from being an answer, or "".

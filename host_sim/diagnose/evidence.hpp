@@ -14,7 +14,7 @@ namespace servoid {
 // columns of everything that was fitted). ridge: of the largest squared column, for columns that
 // are nearly alike.
 std::vector<double> held_out_power(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residual,
-                                   const std::vector<int>& block, double ridge = 1e-9);
+                                   const std::vector<int>& block, double ridge = 1e-5);
 
 // Squared error of each block as a share of ‖T‖², predicted by the fit to all others.
 std::vector<double> held_out_blocks(const FitResult& fit, Assembler& assembler);

@@ -42,7 +42,7 @@ Vector residual_of(const HomedModel& model, const TwinSet& twins) {
         const PreparedMotion& m = twins.motions[i];
         const Vector all = residual_torque(model.at(i), m);
         for (Eigen::Index k = 0; k < all.size(); ++k)
-            if (m.used[size_t(k)]) out[row++] = all[k];
+            if (m.used[size_t(k)]) out[row++] = m.rests[size_t(k)] ? 0 : all[k];
     }
     return out;
 }

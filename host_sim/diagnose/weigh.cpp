@@ -17,6 +17,7 @@ constexpr double kBeyondNoise = 0.6;       // a gain that fed-back noise has not
 constexpr double kBeyondNoiseUntold = 0.8; // where no reference was recorded
 constexpr double kFollows = 0.4;           // of a linear dynamics' gain must follow the reference
 constexpr double kAsked = 0.02;            // probability from which a gain is compared with noise's
+constexpr double kMuchTheSame = 1.1;       // in error
 constexpr double kPerBound = 4;            // price, as a logarithm
 constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise does that
 
@@ -67,6 +68,26 @@ void credit_everyday(const Diagnosis& d, double least, double count,
 // Linear dynamics between asked torque and motion: what noise in a closed loop imitates.
 bool is_linear_dynamics(const std::string& effect) {
     return effect == "dead_time" || effect == "torque_lag" || effect == "elastic_load";
+}
+
+// A lag and a dead time that leave much the same are told apart by how often, block after block,
+// one leaves less: no further than that returns (Vuong, Econometrica 57, 1989).
+void tell_apart_by_blocks(const Diagnosis& d, double least, double count,
+                          std::vector<double>& evidence) {
+    const size_t top =
+        size_t(std::max_element(evidence.begin(), evidence.end()) - evidence.begin());
+    if (!is_linear_dynamics(d.candidates[top].effect)) return;
+    const auto size = [&](size_t i) {
+        return std::hypot(d.candidates[i].validation_error_after, least);
+    };
+    for (size_t i = 0; i < evidence.size(); ++i) {
+        if (i == top || !std::isfinite(evidence[i]) || size(i) > kMuchTheSame * size(top)) continue;
+        if (!is_linear_dynamics(d.candidates[i].effect)) continue;
+        const double apart = count * std::log(size(i) / size(top));
+        const double z =
+            std::max(0.0, gain_z(d.candidates[i].blocks_after, d.candidates[top].blocks_after));
+        evidence[i] += std::max(0.0, apart - z * z / 2);
+    }
 }
 
 // Noise of a loop does not repeat: what is removed beyond it is no noise.
@@ -145,8 +166,10 @@ void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
     if (!best) return;
     const double count = independent_count(d, *best);
     const double floor = 0.3 * d.noise_floor; // an error below the noise is luck, not evidence
-    // Half of what is slight, and what the method may itself leave of each.
-    const double least = std::hypot(kSlight / 2, std::max(d.before.doubt, best->fit.doubt));
+    // Half of what is slight, and what the method may itself leave of each: no more than it did
+    // leave.
+    const double doubt = std::max(d.before.doubt, best->fit.doubt);
+    const double least = std::hypot(kSlight / 2, std::min(doubt, best->error_after));
     const double none = log_evidence(d.before, std::max(floor, d.error_before), count, least);
     double top = none;
     std::vector<double> value;
@@ -158,6 +181,7 @@ void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
                 (c.noise_gain > 0 ? count * c.noise_gain : 0) + known_beforehand(c, views);
         value.push_back(v);
     }
+    tell_apart_by_blocks(d, least, count, value);
     credit_everyday(d, least, count, value);
     prefer_simple_names(d, value);
     for (double v : value)

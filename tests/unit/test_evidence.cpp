@@ -39,7 +39,7 @@ TEST(HeldOutPower, IsWhatLeavingEachBlockOutGives) {
     const Matrix x = Matrix::NullaryExpr(n, 3, [&] { return noise(1, random)[0]; });
     const Vector y = noise(n, random);
     const std::vector<int> block = blocks_of(n, 6);
-    const std::vector<double> power = held_out_power(x, y, block);
+    const std::vector<double> power = held_out_power(x, y, block, 1e-12);
     ASSERT_EQ(power.size(), 6u);
     for (int b = 0; b < 6; ++b) {
         Matrix rest = x;
