@@ -2,6 +2,8 @@
 
 #include "common/error.hpp"
 #include "compare/compare.hpp"
+#include "diagnose/twin.hpp"
+#include "effects/catalogue.hpp"
 
 #include <fmt/format.h>
 
@@ -98,6 +100,19 @@ std::vector<ParameterCheck> check_all(const Case& c, const Candidate& candidate)
 // The noise of the world in a band, as a share of the torque there.
 double true_floor(const Case& c, double band_Hz) {
     return band_Hz > 0 ? measure(c.world, c.base, c.known, c.record, band_Hz).floor : 0;
+}
+
+// What a complete model leaves: the floor of anyone who knows the effect but not its numbers.
+double complete_error(const Case& c, const std::vector<servoid::PreparedMotion>& motions) {
+    servoid::Model model = c.known;
+    for (const EffectTerm& e : c.hidden) {
+        if (!servoid::find_effect(e.name)) return 0;
+        std::erase_if(model.effects,
+                      [&](const EffectTerm& t) { return e.name == t.name + "_asymmetric"; });
+        model.effects.push_back(e);
+    }
+    servoid::Assembler assembler(motions);
+    return servoid::without_artifact(servoid::fit(model, assembler), assembler, 2).torque_error;
 }
 
 Verdict start(const Case& c) {
@@ -205,6 +220,7 @@ Verdict judge(const Case& c) {
         const auto motions = servoid::prepare_all(std::span(&c.capture, 1), {});
         v.diagnosis = servoid::diagnose(c.known, motions);
         take(v, c, v.diagnosis);
+        if (!c.hidden.empty()) v.complete_error = complete_error(c, motions);
     } catch (const std::exception& e) {
         v.failure = e.what();
         v.named = v.verdict = "thrown";

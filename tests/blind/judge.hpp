@@ -23,6 +23,8 @@ struct Verdict {
     bool first_right = false;   // truth, or its equal, is the first candidate and was put forward
     double error_before = 0, error_after = 0, floor = 0;
     double true_floor = 0; // noise of the world in the tool's band
+    double complete_error =
+        0; // of the believed model with the hidden effects, fitted; 0: not known
     double band_Hz = 0;
     std::vector<ParameterCheck> parameters; // where the first candidate is right
     double seconds = 0;

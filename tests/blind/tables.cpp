@@ -19,6 +19,8 @@ Figures figures_of(const std::vector<Verdict>& verdicts) {
         f.found_all += v.all_found;
         f.thrown += !v.failure.empty();
         f.to_floor += v.first_right && v.error_after <= 1.1 * v.floor;
+        f.to_complete += v.first_right && v.complete_error > 0 &&
+                         v.error_after <= 1.1 * std::max(v.floor, v.complete_error);
         f.to_true_floor += v.first_right && v.error_after <= 1.1 * std::max(v.floor, v.true_floor);
         for (const ParameterCheck& p : v.parameters)
             ++f.parameters, f.good_parameters += p.good;
@@ -32,15 +34,15 @@ std::string text_of(const Figures& f) {
     const auto share = [](int part, int whole) {
         return fmt::format("{}/{} ({:.1f} %)", part, whole, whole ? 100.0 * part / whole : 0.0);
     };
-    return fmt::format("named first {} (missing {}, ambiguous {}), parameters {}, to the floor {} "
-                       "(true floor {}), "
-                       "adequate {}, unknown or ambiguous {}, all found {}, thrown {}, "
-                       "{:.2f} s each, slowest {:.2f} s",
-                       share(f.right, f.cases), f.missing, f.ambiguous,
-                       share(f.good_parameters, f.parameters), share(f.to_floor, f.right),
-                       share(f.to_true_floor, f.right), share(f.adequate, f.cases),
-                       share(f.unknown_or_ambiguous, f.cases), share(f.found_all, f.cases),
-                       f.thrown, f.cases ? f.seconds / f.cases : 0.0, f.slowest);
+    return fmt::format(
+        "named first {} (missing {}, ambiguous {}), parameters {}, to the floor {} "
+        "(true floor {}, complete model {}), "
+        "adequate {}, unknown or ambiguous {}, all found {}, thrown {}, "
+        "{:.2f} s each, slowest {:.2f} s",
+        share(f.right, f.cases), f.missing, f.ambiguous, share(f.good_parameters, f.parameters),
+        share(f.to_floor, f.right), share(f.to_true_floor, f.right), share(f.to_complete, f.right),
+        share(f.adequate, f.cases), share(f.unknown_or_ambiguous, f.cases),
+        share(f.found_all, f.cases), f.thrown, f.cases ? f.seconds / f.cases : 0.0, f.slowest);
 }
 
 std::string confusion_matrix(const std::vector<Verdict>& verdicts) {
