@@ -216,14 +216,23 @@ Eigen::Index a_period_away(const PreparedMotion& m, Eigen::Index k) {
     return k >= points ? k - points : k;
 }
 
+// The torque that arrives `delay_s` later than recorded, or its slope. Held instants are left out
+// of the slope where they are, not where the torque was: it is a difference of two delays.
+Vector arriving(const PreparedMotion& motion, TorqueSignal signal, double delay_s, int derivative) {
+    signal.delay_s += delay_s;
+    if (derivative == 0) return motion.band_limit(signal);
+    const double by_s = signal.sample_time_s / 4;
+    signal.delay_s -= by_s;
+    const Vector earlier = motion.band_limit(signal);
+    signal.delay_s += 2 * by_s;
+    return (earlier - motion.band_limit(signal)) / (2 * by_s);
+}
+
 Vector LagSearch::torque(double delay_s, int derivative, Taken taken) const {
     Vector out(Eigen::Index(block_.size()));
     Eigen::Index row = 0;
     for (const Recorded& c : captures_) {
-        const TorqueSignal& s = c.signal;
-        const double hold_s = s.held ? s.sample_time_s / 2 : 0;
-        const Vector on_grid = c.motion.low_pass->apply(s.samples, c.motion.grid, derivative,
-                                                        s.delay_s + hold_s + delay_s);
+        const Vector on_grid = arriving(c.motion, c.signal, delay_s, derivative);
         for (Eigen::Index k : c.points.on_grid)
             out[row++] = on_grid[taken == Taken::here ? k : a_period_away(c.motion, k)];
     }

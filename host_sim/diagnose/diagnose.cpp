@@ -21,6 +21,8 @@ constexpr double kSure = 0.9;       // probability from which one candidate stan
 constexpr double kLeastGain = 0.03; // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15; // times the floor: the residual is noise
 constexpr double kColoured = 0.02;  // of the torque: an error that is not white is no noise
+constexpr double kPeaked = 6;       // fourth moment: noise has 3, what comes in bursts far more
+constexpr double kLarge = 0.1;      // of the torque: so much in bursts is no noise
 constexpr double kWhite = 0.15;     // of the points are independent; half of them where it is white
 constexpr double kWorthFinishing = 0.3; // probability
 constexpr double kSameTwice = 0.8;      // of the smaller gain of two is common to both
@@ -94,7 +96,9 @@ Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
     const bool coloured =
         d.error_before > std::max({3 * d.noise_floor, kColoured, own}) &&
         effective_count(d.before.residual) < kWhite * double(d.before.residual.size());
-    return left.evident || repeats || coloured ? Verdict::unknown : Verdict::adequate;
+    const bool bursts = d.error_before > std::max({3 * d.noise_floor, kLarge, own}) &&
+                        peakedness(d.before.residual) > kPeaked;
+    return left.evident || repeats || coloured || bursts ? Verdict::unknown : Verdict::adequate;
 }
 
 Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {

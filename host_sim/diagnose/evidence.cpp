@@ -47,6 +47,11 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
     return out;
 }
 
+double peakedness(const Vector& residual) {
+    const double n = double(residual.size()), square = residual.squaredNorm() / n;
+    return square > 0 ? residual.array().pow(4).sum() / n / (square * square) : 0;
+}
+
 std::vector<double> held_out_blocks(const FitResult& fit, Assembler& assembler) {
     std::vector<double> power =
         held_out_power(joint_slopes(fit, assembler), fit.residual, assembler.blocks());

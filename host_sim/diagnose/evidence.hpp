@@ -16,6 +16,9 @@ namespace servoid {
 std::vector<double> held_out_power(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residual,
                                    const std::vector<int>& block, double ridge = 1e-5);
 
+// Fourth moment over the squared second: 3 of Gaussian noise.
+double peakedness(const Eigen::VectorXd& residual);
+
 // Squared error of each block as a share of ‖T‖², predicted by the fit to all others.
 std::vector<double> held_out_blocks(const FitResult& fit, Assembler& assembler);
 // ‖T − T̂‖/‖T‖ with each block predicted by the fit to all others.
