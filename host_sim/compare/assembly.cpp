@@ -77,6 +77,12 @@ void set_coefficient_values(Model& model, const Vector& values) {
     }
 }
 
+TorqueSignal delivered_by(const Model& model, TorqueSignal asked) {
+    for (const EffectTerm& term : model.effects)
+        effect_of(term).deliver(term, asked);
+    return asked;
+}
+
 Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(motions) {
     for (size_t i = 0; i < motions.size(); ++i) {
         views_.push_back(motions[i].motion);
@@ -164,15 +170,6 @@ void Assembler::set_context(const Model& model) {
         context_ += fmt::format("@{:a}", offset.value);
 }
 
-Matrix Assembler::used_rows(size_t capture, const Matrix& rows) const {
-    const PreparedMotion& m = motions_[capture];
-    Matrix out(m.used_count(), rows.cols());
-    Eigen::Index row = 0;
-    for (Eigen::Index k = 0; k < rows.rows(); ++k)
-        if (m.used[size_t(k)]) out.row(row++) = rows.row(k);
-    return out;
-}
-
 namespace {
 
 void append_rows(Matrix& all, const Matrix& more) {
@@ -191,7 +188,8 @@ const Matrix& Assembler::columns_of(const EffectTerm& term) {
     if (found != cache_.end()) return found->second;
     Matrix all(0, effect.linear_count(term));
     for (size_t i = 0; i < motions_.size(); ++i)
-        append_rows(all, used_rows(i, motions_[i].band_limit(effect.columns(term, views_[i]))));
+        append_rows(all,
+                    motions_[i].used_rows(motions_[i].band_limit(effect.columns(term, views_[i]))));
     return cache_.emplace(key, std::move(all)).first->second;
 }
 
@@ -209,7 +207,7 @@ const Matrix& Assembler::inertia_of(const Model& model) {
         Vector inertia = views_[i].acceleration;
         for (const EffectTerm& term : model.effects)
             effect_of(term).shape_inertia(term, views_[i], inertia);
-        append_rows(all, used_rows(i, motions_[i].band_limit(Matrix(inertia))));
+        append_rows(all, motions_[i].used_rows(motions_[i].band_limit(Matrix(inertia))));
     }
     return cache_.emplace(key, std::move(all)).first->second;
 }
@@ -221,12 +219,8 @@ const Matrix& Assembler::torque_of(const Model& model) {
     auto found = cache_.find(key);
     if (found != cache_.end()) return found->second;
     Matrix all(0, 1);
-    for (size_t i = 0; i < motions_.size(); ++i) {
-        TorqueSignal signal = motions_[i].asked;
-        for (const EffectTerm& term : model.effects)
-            effect_of(term).deliver(term, signal);
-        append_rows(all, used_rows(i, Matrix(motions_[i].band_limit(signal))));
-    }
+    for (const PreparedMotion& m : motions_)
+        append_rows(all, m.used_rows(m.band_limit(delivered_by(model, m.asked))));
     return cache_.emplace(key, std::move(all)).first->second;
 }
 

@@ -57,7 +57,6 @@ class Assembler {
     const Eigen::MatrixXd& columns_of(const EffectTerm& term);
     const Eigen::MatrixXd& inertia_of(const Model& model);
     const Eigen::MatrixXd& torque_of(const Model& model);
-    Eigen::MatrixXd used_rows(size_t capture, const Eigen::MatrixXd& grid_rows) const;
 
     const std::vector<PreparedMotion>& motions_;
     std::vector<MotionView> views_; // the motions with the context of the model
@@ -73,6 +72,9 @@ class Assembler {
 Eigen::VectorXd coefficient_values(const Model& model);
 void set_coefficient_values(Model& model, const Eigen::VectorXd& values);
 std::vector<Coefficient> coefficients_of(const Model& model);
+
+// What arrives at the motor of the torque that was asked for.
+TorqueSignal delivered_by(const Model& model, TorqueSignal asked);
 
 // The motion with what the rest of the model says filled in, for laws that change others.
 MotionView in_context(const Model& model, MotionView view);

@@ -2,7 +2,6 @@
 #include "common/error.hpp"
 #include "compare/motion.hpp"
 #include "compare/noise.hpp"
-#include "compare/period.hpp"
 #include "compare/spectrum.hpp"
 
 #include <algorithm>
@@ -62,11 +61,9 @@ Folded fold(const Vector& torque, double lag) {
 }
 
 // How far up torque comes back with every period, well above what does not: cogging at full speed
-// and the edge of a reversal lie far above a slow sine. 0 where nothing repeats.
-double repeating_band(const Capture& capture, const Vector& torque) {
-    const std::optional<double> period = find_period(capture);
-    if (!period) return 0;
-    const Folded folded = fold(torque, *period / capture.sample_time_s);
+// and the edge of a reversal lie far above a slow sine. 0 where nothing does.
+double repeating_band(const Capture& capture, const Vector& torque, double period_s) {
+    const Folded folded = fold(torque, period_s / capture.sample_time_s);
     if (folded.sum.size() < 64) return 0;
     const Spectrum both = power_spectrum(folded.sum, capture.sample_time_s);
     const Spectrum noise = power_spectrum(folded.difference, capture.sample_time_s);
@@ -100,7 +97,7 @@ double noise_share(const Capture& capture, const Vector& source, double noise, d
 
 } // namespace
 
-Band choose_band(const Capture& capture, Input input) {
+Band choose_band(const Capture& capture, Input input, std::optional<double> period_s) {
     const std::vector<double>& torque = *choose_torque(capture, input).values;
     const std::vector<double>& motion =
         capture.has_position() ? capture.position : capture.velocity;
@@ -113,7 +110,8 @@ Band choose_band(const Capture& capture, Input input) {
     const double lowest = std::min(24 / length_s, kHighest / capture.sample_time_s);
     const double highest = kHighest / capture.sample_time_s;
     const double of_torque = 2 * edge_of_power(t, capture.sample_time_s, kPowerShare);
-    const double excited = excited_band(capture), repeating = repeating_band(capture, t);
+    const double excited = excited_band(capture);
+    const double repeating = period_s ? repeating_band(capture, t, *period_s) : 0;
     const double known = std::max(excited, repeating);
     const double widest = std::min(of_torque, known);
     double band = std::clamp(widest, lowest, highest);

@@ -21,15 +21,7 @@ struct Powers {
 };
 
 Powers powers_of(const PreparedMotion& m, const Vector& residual) {
-    Powers p;
-    for (Eigen::Index k = 0; k < residual.size(); ++k) {
-        ++p.all;
-        if (!m.used[size_t(k)]) continue;
-        p.residual += residual[k] * residual[k];
-        p.torque += m.torque[k] * m.torque[k];
-        ++p.used;
-    }
-    return p;
+    return {m.used_power(residual), m.used_power(m.torque), m.used_count(), residual.size()};
 }
 
 // One capture with what the model leaves of it.

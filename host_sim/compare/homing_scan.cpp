@@ -19,11 +19,10 @@ using Vector = Eigen::VectorXd;
 constexpr double kPrice = 3;    // as a logarithm, beside the places that were looked at
 constexpr double kPerCycle = 8; // places in a cycle of the fastest wave
 constexpr int kMostPlaces = 4096;
-constexpr int kMostPeriods = 32;   // of the slowest wave, until all are back in phase
-constexpr double kInPhase = 0.05;  // cycles
-constexpr double kMostCount = 150; // independent residuals of a capture
-constexpr double kRidge = 1e-10;   // of columns scaled to length 1
-constexpr int kSections = 30;      // of two steps: 1e-6 of one
+constexpr int kMostPeriods = 32;  // of the slowest wave, until all are back in phase
+constexpr double kInPhase = 0.05; // cycles
+constexpr double kRidge = 1e-10;  // of columns scaled to length 1
+constexpr int kSections = 30;     // of two steps: 1e-6 of one
 
 } // namespace
 

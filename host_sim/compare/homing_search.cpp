@@ -188,12 +188,8 @@ Model without_flat_waves(Model model) {
 
 double torque_error(const Model& model, const PreparedMotion& motion) {
     const Vector delivered = delivered_torque(model, motion);
-    const Vector residual = delivered - model_torque(model, motion);
-    double power = 0, torque = 0;
-    for (Eigen::Index k = 0; k < residual.size(); ++k)
-        if (motion.used[size_t(k)])
-            power += residual[k] * residual[k], torque += delivered[k] * delivered[k];
-    return std::sqrt(power / std::max(1e-300, torque));
+    const double power = motion.used_power(delivered - model_torque(model, motion));
+    return std::sqrt(power / std::max(1e-300, motion.used_power(delivered)));
 }
 
 } // namespace

@@ -51,7 +51,7 @@ struct Points {
 struct Recorded {
     const PreparedMotion& motion;
     TorqueSignal signal;
-    Vector turned, turning; // sgn v through the band limit, and its slope
+    Matrix plain; // v, 1, sgn v and its slope through the band limit
     Points points;
 };
 
@@ -69,22 +69,25 @@ Points points_of(const Recorded& c, double reach_s, Eigen::Index first_row) {
         if (!m.used[size_t(k)]) continue;
         const bool reached = m.grid.at(k) > first && m.grid.at(k) < last;
         if (reached) all.add(k, row);
-        if (reached && std::abs(c.turned[k]) > kSteady) steady.add(k, row);
+        if (reached && std::abs(c.plain(k, 2)) > kSteady) steady.add(k, row);
         ++row;
     }
     return 2 * steady.rows.size() > all.rows.size() ? steady : all;
 }
 
+// Friction turns late where the axis sticks, and that is no delay of the torque: sgn v has its
+// slope beside it.
+Matrix plain_laws(const PreparedMotion& m) {
+    Matrix laws(m.motion.size(), 3);
+    laws << m.motion.velocity, Vector::Ones(m.motion.size()), direction(m.motion);
+    Matrix out(m.grid.count, 4);
+    out << m.band_limit(laws), m.smooth(m.sliding(laws).col(2), 1);
+    return out;
+}
+
 Recorded recorded_of(const Model& model, const PreparedMotion& m, double reach_s,
                      Eigen::Index first_row) {
-    Recorded out{m, m.asked, {}, {}, {}};
-    for (const EffectTerm& term : model.effects)
-        find_effect(term.name)->deliver(term, out.signal);
-    Grid local = m.grid;
-    local.start_s -= m.motion_start_s;
-    const Vector sign = direction(m.motion);
-    out.turned = m.low_pass->apply(sign, local);
-    out.turning = m.low_pass->apply(sign, local, 1);
+    Recorded out{m, delivered_by(model, m.asked), plain_laws(m), {}};
     out.points = points_of(out, reach_s, first_row);
     return out;
 }
@@ -173,8 +176,7 @@ class LagSearch {
     std::optional<Laws> laws_;
 };
 
-// Rows of the model's laws, with v, 1, sgn v and its slope beside them: friction turns late where
-// the axis sticks, and that is no delay of the torque.
+// Rows of the model's laws with the plain ones beside them.
 Matrix with_plain_laws(const Matrix& laws, const std::vector<Recorded>& captures) {
     Eigen::Index count = 0;
     for (const Recorded& c : captures)
@@ -185,7 +187,7 @@ Matrix with_plain_laws(const Matrix& laws, const std::vector<Recorded>& captures
         for (size_t i = 0; i < c.points.rows.size(); ++i, ++row) {
             const Eigen::Index k = c.points.on_grid[i];
             out.row(row).head(laws.cols()) = laws.row(c.points.rows[i]);
-            out.row(row).tail(4) << c.motion.velocity[k], 1, c.turned[k], c.turning[k];
+            out.row(row).tail(4) = c.plain.row(k);
         }
     return out;
 }

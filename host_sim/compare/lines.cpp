@@ -181,13 +181,6 @@ LineKinds ratios(const LineKinds& sum, double torque_power, bool odd) {
     return {ratio(sum.excited), odd ? ratio(sum.odd) : NAN, ratio(sum.even)};
 }
 
-double used_power(const PreparedMotion& m) {
-    double out = 0;
-    for (Eigen::Index k = 0; k < m.torque.size(); ++k)
-        if (m.used[size_t(k)]) out += m.torque[k] * m.torque[k];
-    return out;
-}
-
 } // namespace
 
 std::optional<Lines> lines_of(const std::vector<PeriodicResidual>& captures) {
@@ -209,7 +202,7 @@ std::optional<Lines> lines_of(const std::vector<PeriodicResidual>& captures) {
         const double weight = double(c.motion.grid.count);
         residual.add(sums_of(c.residual, *plan), weight);
         torque.add(sums_of(c.motion.torque, *plan), weight);
-        torque_power += used_power(c.motion);
+        torque_power += c.motion.used_power(c.motion.torque);
     }
     if (!(torque_power > 0)) return std::nullopt;
     out.residual = ratios(residual.lines, torque_power, odd);

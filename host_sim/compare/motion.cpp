@@ -74,15 +74,13 @@ double smoothing_band(const Capture& capture, const Vector& source, double noise
 
 // The acceleration of a motion without its held instants: smoothed after they are taken out, so
 // that the jump at either end is not smeared over them.
-void take_out_held(const Vector& source, int order, const LowPass& smooth, const Grid& grid,
+void take_out_held(const Vector& position, const LowPass& smooth, const Grid& grid,
                    PreparedMotion& out) {
     const double step = out.motion.sample_time_s;
-    Vector taken = out.held_weight.at(0, step, source.size());
+    Vector taken = out.held_weight.at(0, step, position.size());
     for (Eigen::Index i = 0; i < taken.size(); ++i) {
-        const Eigen::Index k = std::clamp<Eigen::Index>(i, 1, source.size() - 2);
-        taken[i] *= (order == 0 ? (source[k + 1] - 2 * source[k] + source[k - 1]) / step
-                                : (source[k + 1] - source[k - 1]) / 2) /
-                    step;
+        const Eigen::Index k = std::clamp<Eigen::Index>(i, 1, position.size() - 2);
+        taken[i] *= (position[k + 1] - 2 * position[k] + position[k - 1]) / (step * step);
     }
     out.held = out.held_weight.at(grid.start_s, step, grid.count);
     const Vector free = (1 - out.held.array()).max(kLeastFree).matrix();
@@ -90,14 +88,12 @@ void take_out_held(const Vector& source, int order, const LowPass& smooth, const
         (out.motion.acceleration - smooth.apply(taken, grid)).cwiseQuotient(free);
 }
 
-void find_held(const Vector& source, int order, PreparedMotion& out) {
+HeldWeight find_held(const Vector& position, const PreparedMotion& out) {
     const double step = out.motion.sample_time_s;
-    out.held_weight = {}, out.held.resize(0);
-    if (order != 0) return; // a velocity that is zero says nothing of where
     const double within = std::max(2.5 * out.motion.position_quantum, 6 * out.position_noise);
     const double width = std::max(0.5 / out.smoothing_Hz, 8 * step);
-    out.held_weight = {held_intervals(source, step, within, kShortestHeld / out.band_Hz),
-                       0.5 / out.smoothing_Hz, width};
+    return {held_intervals(position, step, within, kShortestHeld / out.band_Hz),
+            0.5 / out.smoothing_Hz, width};
 }
 
 void differentiate(const Capture& capture, PreparedMotion& out) {
@@ -125,8 +121,9 @@ void differentiate(const Capture& capture, PreparedMotion& out) {
     motion.position = order == 0 ? smooth.apply(source, grid, 0) : Vector();
     out.motion_start_s = grid.start_s;
     motion.velocity_noise = out.position_noise * smooth.noise_gain(1 - order);
-    find_held(source, order, out);
-    if (!out.held_weight.empty()) take_out_held(source, order, smooth, grid, out);
+    out.held_weight = {}, out.held.resize(0);
+    if (order == 0) out.held_weight = find_held(source, out); // a velocity of zero says not where
+    if (!out.held_weight.empty()) take_out_held(source, smooth, grid, out);
 }
 
 // Instants that the band limit can reach; a whole number of them to a known period.
@@ -189,6 +186,16 @@ void refuse_if_still(const PreparedMotion& prepared) {
                   "a periodic move in both directions, well above the encoder's resolution");
 }
 
+void refuse_if_no_torque(const PreparedMotion& prepared) {
+    if (prepared.asked.samples.cwiseAbs().maxCoeff() > 0) return;
+    const bool measured = prepared.input == Input::measured;
+    throw Refusal(prepared.capture->path + ": the " + prepared.torque_name +
+                      " column is zero throughout",
+                  measured && !prepared.capture->torque_ref.empty()
+                      ? "the measured torque, or use the one that the drive asks for (--input ref)"
+                      : "the torque that moved the axis");
+}
+
 // Torque and motion through the band limit.
 void fill_grid(PreparedMotion& out, Input input) {
     const Capture& capture = *out.capture;
@@ -219,17 +226,22 @@ TorqueChoice choose_torque(const Capture& capture, Input input) {
     return {&capture.torque_ref, capture.ref_held, Input::reference, "torque_ref"};
 }
 
-Eigen::VectorXd PreparedMotion::smooth(const Eigen::VectorXd& signal) const {
+Eigen::VectorXd PreparedMotion::smooth(const Eigen::VectorXd& signal, int derivative) const {
     Grid local = grid;
     local.start_s -= motion_start_s;
-    return low_pass->apply(signal, local);
+    return low_pass->apply(signal, local, derivative);
+}
+
+Eigen::MatrixXd PreparedMotion::sliding(const Eigen::MatrixXd& columns) const {
+    if (!held.size()) return columns;
+    return (1 - held.array()).matrix().asDiagonal() * columns;
 }
 
 Eigen::MatrixXd PreparedMotion::band_limit(const Eigen::MatrixXd& columns) const {
+    const Eigen::MatrixXd free = sliding(columns);
     Eigen::MatrixXd out(grid.count, columns.cols());
     for (Eigen::Index c = 0; c < columns.cols(); ++c)
-        out.col(c) = held.size() ? smooth(columns.col(c).cwiseProduct((1 - held.array()).matrix()))
-                                 : smooth(columns.col(c));
+        out.col(c) = smooth(free.col(c));
     return out;
 }
 
@@ -257,6 +269,18 @@ Eigen::Index PreparedMotion::used_count() const {
     return std::count(used.begin(), used.end(), true);
 }
 
+Eigen::MatrixXd PreparedMotion::used_rows(const Eigen::MatrixXd& on_grid) const {
+    Eigen::MatrixXd out(used_count(), on_grid.cols());
+    Eigen::Index row = 0;
+    for (Eigen::Index k = 0; k < on_grid.rows(); ++k)
+        if (used[size_t(k)]) out.row(row++) = on_grid.row(k);
+    return out;
+}
+
+double PreparedMotion::used_power(const Eigen::VectorXd& on_grid) const {
+    return used_rows(on_grid).squaredNorm();
+}
+
 PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture) {
     PreparedMotion out = like;
     out.capture = &capture;
@@ -271,8 +295,9 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
     PreparedMotion out;
     out.capture = &capture;
     const double top = highest_band(capture.sample_time_s);
+    out.period_s = find_period(capture);
     const Band band = options.band_Hz ? Band{*options.band_Hz, BandLimit::asked}
-                                      : choose_band(capture, options.input);
+                                      : choose_band(capture, options.input, out.period_s);
     out.band_Hz = band.edge_Hz;
     out.band_limited_by = band.limit;
     if (out.band_Hz > top)
@@ -280,11 +305,11 @@ PreparedMotion prepare_motion(const Capture& capture, const MotionOptions& optio
                                      out.band_Hz, capture.path, top));
     differentiate(capture, out);
     out.low_pass.emplace(capture.sample_time_s, out.band_Hz);
-    out.period_s = find_period(capture);
     if (out.motion.size() > 0) out.grid = comparison_grid(out, out.band_Hz);
     refuse_if_short(out);
 
     fill_grid(out, options.input);
+    refuse_if_no_torque(out);
     out.used = moving(out);
     const int order = capture.has_position() ? 0 : 1;
     out.velocity_noise = out.position_noise * out.low_pass->noise_gain(1 - order);

@@ -29,7 +29,9 @@ struct MotionOptions {
 // Times are seconds after the capture's first row.
 struct PreparedMotion {
     const Capture* capture = nullptr;
-    MotionView motion; // at the sample rate, smoothed as little as its noise allows
+    // At the sample rate, smoothed as little as its noise allows; the acceleration without what the
+    // jumps at either end of a held stretch would smear over its neighbours.
+    MotionView motion;
     double motion_start_s = 0;
     std::optional<LowPass> low_pass;                  // of the motion's rate, at the band
     Grid grid;                                        // where torque and columns are compared
@@ -52,15 +54,18 @@ struct PreparedMotion {
 
     TorqueSignal asked; // as recorded, for effects between asked and delivered torque
 
-    // Torques of laws at the sample rate (rows: motion.size()) through the band limit, on the grid;
-    // those of held instants are left out.
+    // Torques of laws at the sample rate (rows: motion.size()), or samples of a recorded torque,
+    // without their held instants.
+    Eigen::MatrixXd sliding(const Eigen::MatrixXd& columns) const;
+    Eigen::VectorXd sliding(const TorqueSignal& signal) const;
+    // The same through the band limit, on the grid. A held torque acts half a sample later.
     Eigen::MatrixXd band_limit(const Eigen::MatrixXd& columns) const;
-    // A measured torque likewise: a held one acts half a sample later.
-    Eigen::VectorXd sliding(const TorqueSignal& signal) const; // its samples without held instants
     Eigen::VectorXd band_limit(const TorqueSignal& signal) const;
-    // Any signal of the motion, all of it.
-    Eigen::VectorXd smooth(const Eigen::VectorXd& signal) const;
+    // Any signal of the motion, all of it, or its slope.
+    Eigen::VectorXd smooth(const Eigen::VectorXd& signal, int derivative = 0) const;
     Eigen::Index used_count() const;
+    Eigen::MatrixXd used_rows(const Eigen::MatrixXd& on_grid) const; // (rows: used_count())
+    double used_power(const Eigen::VectorXd& on_grid) const;         // sum of squares of those
 };
 
 // The motion and torque of one capture. Throws Refusal where there is too little of either.
@@ -72,7 +77,7 @@ PreparedMotion prepare_like(const PreparedMotion& like, const Capture& capture);
 // The upper edge of the band in which torque and motion carry information, Hz: below the frequency
 // where the noise of the measured position, as torque, reaches a small part of the torque itself,
 // and within four times what the reference excites.
-Band choose_band(const Capture& capture, Input input);
+Band choose_band(const Capture& capture, Input input, std::optional<double> period_s);
 
 // The torque column that is used, and whether it is a held reference.
 struct TorqueChoice {

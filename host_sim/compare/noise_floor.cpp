@@ -40,11 +40,8 @@ Eigen::MatrixXd without_transient(Eigen::MatrixXd rows) {
 }
 
 double torque_rms(const PreparedMotion& m) {
-    double sum = 0;
-    long n = 0;
-    for (Eigen::Index k = 0; k < m.torque.size(); ++k)
-        if (m.used[size_t(k)]) sum += m.torque[k] * m.torque[k], ++n;
-    return n ? std::sqrt(sum / double(n)) : 0;
+    const Eigen::Index n = m.used_count();
+    return n ? std::sqrt(m.used_power(m.torque) / double(n)) : 0;
 }
 
 // Less than two whole periods, or hardly a point that is used in all of them: what differs between

@@ -320,6 +320,13 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     return out;
 }
 
+FitOptions going_on_from(const FitResult& fitted) {
+    FitOptions out;
+    out.believed_terms = fitted.believed_terms;
+    out.start_values = false;
+    return out;
+}
+
 FitResult fit(const Model& model, const std::vector<PreparedMotion>& motions) {
     Assembler assembler(motions);
     return fit(model, assembler);
@@ -330,10 +337,7 @@ Vector model_torque(const Model& model, const PreparedMotion& motion) {
 }
 
 Vector delivered_torque(const Model& model, const PreparedMotion& motion) {
-    TorqueSignal signal = motion.asked;
-    for (const EffectTerm& term : model.effects)
-        find_effect(term.name)->deliver(term, signal);
-    return motion.band_limit(signal);
+    return motion.band_limit(delivered_by(model, motion.asked));
 }
 
 } // namespace servoid

@@ -53,6 +53,9 @@ struct FitOptions {
     bool start_values = true;
 };
 
+// Of a fit that goes on from another: the same beliefs, the shapes from where they are.
+FitOptions going_on_from(const FitResult& fitted);
+
 // Least squares of everything that is not fixed, with dissipation kept ≥ 0. Standard deviations are
 // block-robust (scores summed over blocks of the record), so they hold for residuals that are
 // correlated in time. Offsets of the assembler's homing that are not 0 are fitted too, and left in

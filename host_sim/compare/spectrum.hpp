@@ -26,4 +26,7 @@ std::vector<double> strongest_lines_Hz(const Eigen::VectorXd& signal, double sam
 // noise up to the Nyquist frequency, few for a residual that repeats or drifts.
 double effective_count(const Eigen::VectorXd& residual);
 
+// What a likelihood counts at most: no law is exact enough for more evidence than this.
+constexpr double kMostCount = 150;
+
 } // namespace servoid

@@ -37,25 +37,16 @@ struct SearchData {
     }
 };
 
-Vector used_of(const Vector& values, const PreparedMotion& m) {
-    if (values.size() == 0) return {};
-    Vector out(m.used_count());
-    Eigen::Index row = 0;
-    for (Eigen::Index k = 0; k < values.size(); ++k)
-        if (m.used[size_t(k)]) out[row++] = values[k];
-    return out;
-}
-
 SearchData search_data(const FitResult& fitted, const Assembler& assembler, size_t capture) {
     const PreparedMotion& m = assembler.motions()[capture];
     const Rows rows = assembler.rows_of(capture);
     const Vector time = Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1));
     return {assembler.views()[capture],
-            used_of(time, m),
-            used_of(m.position, m),
-            used_of(m.velocity, m),
-            used_of(m.acceleration, m),
-            used_of(m.torque, m),
+            m.used_rows(time),
+            m.position.size() ? Vector(m.used_rows(m.position)) : Vector(),
+            m.used_rows(m.velocity),
+            m.used_rows(m.acceleration),
+            m.used_rows(m.torque),
             fitted.residual.segment(rows.first, rows.count)};
 }
 

@@ -22,12 +22,7 @@ Vector reference_at(const PreparedMotion& m, double lag_s) {
     const Capture& capture = *m.capture;
     const Eigen::Map<const Vector> reference(capture.position_ref.data(),
                                              Eigen::Index(capture.rows()));
-    const Vector all = m.low_pass->apply(reference, m.grid, 2, lag_s);
-    Vector out(m.used_count());
-    Eigen::Index row = 0;
-    for (Eigen::Index k = 0; k < all.size(); ++k)
-        if (m.used[size_t(k)]) out[row++] = all[k];
-    return out;
+    return m.used_rows(m.low_pass->apply(reference, m.grid, 2, lag_s));
 }
 
 } // namespace

@@ -47,11 +47,8 @@ std::optional<Everyday> everyday_of(const FitResult& before, Assembler& assemble
     }
     if (model.effects.size() < before.model.effects.size() + 2) return std::nullopt;
     assembler.set_artifact(before.artifact);
-    FitOptions options;
-    options.believed_terms = before.believed_terms;
-    options.start_values = false;
     try {
-        Everyday out{fit(model, assembler, options), 0};
+        Everyday out{fit(model, assembler, going_on_from(before)), 0};
         out.error = std::max(out.fit.torque_error, held_out_error(out.fit, assembler));
         return out;
     } catch (const Refusal&) { // one way only: the same thing twice

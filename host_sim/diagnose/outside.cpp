@@ -57,12 +57,9 @@ std::optional<Outside> outside_rival(const Diagnosis& d, const Candidate& candid
     if (!term) return std::nullopt;
     Model model = d.before.model;
     model.effects.push_back(*term);
-    FitOptions options;
-    options.believed_terms = d.before.believed_terms;
-    options.start_values = false;
     try {
         assembler.set_artifact(candidate.fit.artifact);
-        const FitResult rival = fit(model, assembler, options);
+        const FitResult rival = fit(model, assembler, going_on_from(d.before));
         const double z = gain_z(candidate.blocks_after, held_out_blocks(rival, assembler));
         if (z < -kTellsApart) return std::nullopt;
         return Outside{term->law, z};

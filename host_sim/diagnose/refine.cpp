@@ -27,9 +27,8 @@ double validation_error(const FitResult& fit, Assembler& assembler,
     const Homing homing = homing_against(fit.model, validation, 0);
     for (size_t i = 0; i < validation.size(); ++i) {
         const PreparedMotion& m = validation[i];
-        const Eigen::VectorXd r = residual_torque(at_zero(fit.model, homing.of(i)), m);
-        for (Eigen::Index k = 0; k < r.size(); ++k)
-            if (m.used[size_t(k)]) residual += r[k] * r[k], torque += m.torque[k] * m.torque[k];
+        residual += m.used_power(residual_torque(at_zero(fit.model, homing.of(i)), m));
+        torque += m.used_power(m.torque);
     }
     return std::sqrt(residual / torque);
 }

@@ -56,9 +56,7 @@ TorqueSignal asked_for(const Model& model, const Vector& needed, double step_s) 
     Vector missing = Vector::Zero(needed.size());
     for (int pass = 0; pass < passes; ++pass) {
         asked.samples += missing;
-        TorqueSignal arrives{asked.samples, step_s, false, 0};
-        for (const EffectTerm& term : model.effects)
-            find_effect(term.name)->deliver(term, arrives);
+        const TorqueSignal arrives = delivered_by(model, {asked.samples, step_s, false, 0});
         missing = needed - arrives.samples;
         asked.delay_s = -arrives.delay_s;
         if (missing.norm() < 1e-6 * needed.norm()) break;

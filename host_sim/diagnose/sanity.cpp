@@ -30,11 +30,7 @@ constexpr double kShortest_s = 5e-3, kLongest_s = 0.02; // delay that a loop cou
 double z_of(const TorqueMatch& match, const Match& before, const Match& after) {
     const std::vector<double> a = held_out_power(match.columns(), before.residual, match.blocks());
     const std::vector<double> b = held_out_power(match.columns(), after.residual, match.blocks());
-    double sum = 0, square = 0;
-    for (size_t i = 0; i < a.size(); ++i)
-        sum += a[i] - b[i], square += (a[i] - b[i]) * (a[i] - b[i]);
-    const double spread = std::sqrt(std::max(0.0, square - sum * sum / double(a.size())));
-    return spread > 0 ? sum / spread : 0;
+    return gain_z(a, b);
 }
 
 // A quarter of a turn of phase where the loop's gain is one.

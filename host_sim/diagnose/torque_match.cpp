@@ -70,9 +70,7 @@ double reach_of(const std::vector<PreparedMotion>& motions) {
 
 TorqueMatch::Part TorqueMatch::part_of(const PreparedMotion& m, const Model& model,
                                        Eigen::Index first_row) const {
-    Part part{&m, m.asked, m.grid, {}, {}};
-    for (const EffectTerm& term : model.effects)
-        find_effect(term.name)->deliver(term, part.asked);
+    Part part{&m, delivered_by(model, m.asked), m.grid, {}, {}};
     // Every delay sees the same instants: those at which the earliest and the latest have a value.
     const double margin = reach_s_ + m.low_pass->half_length_s() + std::abs(part.asked.delay_s);
     const double last = double(part.asked.samples.size() - 1) * m.asked.sample_time_s - margin;

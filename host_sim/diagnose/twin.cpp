@@ -131,21 +131,13 @@ std::optional<Capture> simulated(const Model& model, const Capture& recorded,
     }
 }
 
-// Of a fit that goes on from another.
-FitOptions options_of(const FitResult& fitted) {
-    FitOptions options;
-    options.believed_terms = fitted.believed_terms;
-    options.start_values = false;
-    return options;
-}
-
 // One round: the artifact of the fitted model out of the torque, and the fit again.
 std::optional<FitResult> freed_once(const FitResult& fitted, Assembler& assembler) {
     const Shown shown = artifact_in(fitted, assembler);
     if (shown.artifact.size() == 0) return std::nullopt;
     assembler.set_artifact(shown.artifact);
     try {
-        FitResult out = fit(fitted.model, assembler, options_of(fitted));
+        FitResult out = fit(fitted.model, assembler, going_on_from(fitted));
         out.doubt = shown.doubt / rms(out.torque);
         return out;
     } catch (const Refusal&) {
@@ -187,7 +179,7 @@ FitResult without_artifact(const FitResult& fitted, Assembler& assembler, int ro
     assembler.set_artifact(best.artifact);
     assembler.set_homing(best.homing);
     // What the method leaves may have hidden how far the zeros are apart.
-    const FitOptions options = options_of(best);
+    const FitOptions options = going_on_from(best);
     return home_again(std::move(best), assembler, options);
 }
 

@@ -23,7 +23,6 @@ constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise 
 
 // Laws are fitted to a motion that was measured and smoothed: two that come this near each other
 // are told apart by more than the number of samples.
-constexpr double kMostCount = 150;
 
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
 // Errors are told apart down to `least`.

@@ -69,6 +69,17 @@ TEST(WrongCapture, AUnitIsNamed) {
     EXPECT_NE(ended.err.find("torque in mN·m"), std::string::npos) << ended.err;
 }
 
+TEST(WrongCapture, AColumnOfZerosIsNoTorque) {
+    const Folder folder;
+    const std::string good = simulated(folder, example("system1.toml"), move, "good.csv");
+    const std::string csv = with_torque(folder, good, [](double) { return 0.0; });
+    for (const char* verb : {"compare", "diagnose"}) {
+        const Ended ended = run({verb, example("system1.toml"), csv});
+        EXPECT_EQ(ended.code, 4) << verb;
+        EXPECT_NE(ended.err.find("zero throughout"), std::string::npos) << ended.err;
+    }
+}
+
 TEST(WrongCapture, AGainIsAWarningOnStderrAndInTheJson) {
     const Folder folder;
     const std::string model = example("system1.toml");
