@@ -65,9 +65,11 @@ Matrix shape_slopes(const State& s, const std::vector<Shape>& shapes, Assembler&
         const double step = step_of(shapes[i], value);
         value += step;
         const Assembly a = assembler.assemble(moved);
+        // As a share of the torque, which a limit makes smaller: see `objective`.
+        const double scale = s.assembly.torque.norm() / std::max(1e-300, a.torque.norm());
         // The coefficients of the moved term may be defined by its shapes: taken from the model.
         out.col(Eigen::Index(i)) =
-            (a.torque - a.columns * coefficient_values(moved) - s.residual) / step;
+            (scale * (a.torque - a.columns * coefficient_values(moved)) - s.residual) / step;
     }
     return out;
 }
@@ -129,9 +131,12 @@ void stay_near_beliefs(std::vector<Shape>& shapes, const State& s, const FitOpti
 }
 
 // What the descent makes small: the power of the residual and the distance from what is believed.
-double objective(const State& s, const std::vector<Shape>& shapes) {
+// The residual counts as a share of the delivered torque: a limit that is too low, with an inertia
+// that is too small by as much, would else leave less of everything (Box and Cox, JRSS B 26, 1964:
+// a transformed response needs its Jacobian).
+double objective(const State& s, const std::vector<Shape>& shapes, double asked_norm) {
     if (!std::isfinite(s.error)) return INFINITY;
-    double sum = s.residual.squaredNorm();
+    double sum = std::pow(s.error * asked_norm, 2);
     for (const Shape& shape : shapes)
         sum += shape.weight * std::pow(s.model.effects[shape.term].at(shape.key) - shape.belief, 2);
     return sum;
@@ -145,6 +150,7 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
     const auto count = Eigen::Index(shapes.size());
     const auto offsets = Eigen::Index(s.homing.all_moved().size());
     if (count + offsets == 0) return true;
+    const double asked = assembler.asked_norm();
     double damping = 1e-3;
     for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
         const Matrix x = pick(s.assembly.columns, s.linear.free);
@@ -164,21 +170,21 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
             gradient[i] += shape.weight * scale[i] * (value - shape.belief);
         }
         bool better = false;
-        const double before = objective(s, shapes);
+        const double before = objective(s, shapes, asked);
         for (int attempt = 0; attempt < 5 && !better; ++attempt) {
             Matrix damped = normal;
             damped.diagonal().array() += damping;
             const Vector by = -(scale.asDiagonal() * damped.ldlt().solve(gradient));
             assembler.set_homing(moved_by(s, by.tail(offsets)));
             State next = evaluate(moved_by(s, shapes, by), assembler);
-            better = objective(next, shapes) < before;
+            better = objective(next, shapes, asked) < before;
             if (better)
                 s = std::move(next), damping = std::max(1e-9, damping / 8);
             else
                 damping *= 10;
         }
         assembler.set_homing(s.homing);
-        if (!better || before - objective(s, shapes) < 2e-6 * before) return true;
+        if (!better || before - objective(s, shapes, asked) < 2e-6 * before) return true;
     }
     return false;
 }

@@ -132,6 +132,18 @@ Record record(const Draft& d, const World& world, int substeps) {
     return r;
 }
 
+// Each effect of a pair is tuned without the other: beside it, a limit may hardly be met.
+bool meets_its_limit(const World& world, const Record& r, const Strength& noise) {
+    if (!(world.delivered_limit > 0)) return true;
+    double cut = 0, asked = 0;
+    for (double torque : r.asked) {
+        cut += std::pow(std::max(0.0, std::abs(torque) - world.delivered_limit), 2);
+        asked += torque * torque;
+    }
+    const double share = std::sqrt(cut / asked);
+    return share >= 0.9 * kLeastShare && share >= kLeastRatio * noise.floor;
+}
+
 struct Tuned {
     EffectTerm hidden;
     Strength strength;
@@ -244,7 +256,7 @@ std::optional<Case> attempt(const std::vector<std::string>& effects, int seed, i
     }
     out.base = d.base;
     out.record = record(d, out.world, 100);
-    if (!healthy(d, out.record)) return {};
+    if (!healthy(d, out.record) || !meets_its_limit(out.world, out.record, out.strength)) return {};
     if (effects.empty())
         out.strength = measure(out.world, d.base, out.known, out.record, band_of(d));
     out.capture = capture_of(d, out.record, random);

@@ -66,6 +66,8 @@ Request parse(int count, char** words) {
             r.cases_only = true;
         else if (word == "--save")
             r.save = next();
+        else if (word.starts_with("-"))
+            throw std::invalid_argument("no such option: " + word + "\n" + kHelp);
         else
             r.what.push_back(word);
     }
