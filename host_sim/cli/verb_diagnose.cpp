@@ -1,4 +1,5 @@
 // servoid diagnose: which physical effect is missing?
+#include "cli/add_command.hpp"
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/parameters.hpp"
@@ -40,6 +41,16 @@ Json candidate_json(const Candidate& c, const Diagnosis& d, bool ampere) {
     return out;
 }
 
+Json outside_json(const Diagnosis& d) {
+    return d.outside.empty() ? Json(nullptr) : Json(d.outside);
+}
+
+// A law that no catalogue names is of use only to who can add it.
+void advise_to_add(Diagnosis& d, const std::string& model_path, const CaptureOptions& captures) {
+    if (d.outside.empty()) return;
+    d.advice += "; to add it: " + add_command(d.outside, d.before.model, model_path, captures);
+}
+
 Json next_json(const std::optional<NextExperiment>& next) {
     if (!next) return nullptr;
     return {{"experiment", next->experiment},
@@ -73,6 +84,7 @@ Json to_json(const Diagnosis& d, const Warnings& warnings, const Zeros& zeros, b
     out["model_parameters"] = fitted_parameters(d.before, ampere);
     add_homing(out, zeros);
     out["next_experiment"] = next_json(d.next);
+    out["outside"] = outside_json(d);
     out["cannot_show"] = cannot_show_json(d.cannot_show);
     out["warnings"] = warnings;
     if (d.shortage) out["reason"] = d.shortage->why;
@@ -86,8 +98,8 @@ Json no_diagnosis() {
             {"error_before", nullptr},        {"validation_error_before", nullptr},
             {"noise_floor", nullptr},         {"band_Hz", nullptr},
             {"candidates", Json::array()},    {"model_parameters", nullptr},
-            {"next_experiment", nullptr},     {"cannot_show", Json::array()},
-            {"warnings", Json::array()}};
+            {"next_experiment", nullptr},     {"outside", nullptr},
+            {"cannot_show", Json::array()},   {"warnings", Json::array()}};
 }
 
 void print_best(const Output& out, const Diagnosis& d, bool ampere) {
@@ -132,7 +144,8 @@ void answer_diagnose(const Options& o) {
     const bool ampere = captures.front().torque_in_ampere;
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const Warnings warnings = check_capture(model, motions, o.output);
-    const Diagnosis d = diagnose(model, motions, with_progress(o.output));
+    Diagnosis d = diagnose(model, motions, with_progress(o.output));
+    advise_to_add(d, o.model, o.captures);
     const Zeros zeros = zeros_of(homing_of(d), captures);
     o.output.print_json(to_json(d, warnings, zeros, ampere));
     print(o.output, d, ampere);
@@ -164,6 +177,7 @@ Json to_json(const Refinement& r, const Warnings& warnings, const Zeros& zeros, 
     out["noise_floor"] = number(r.noise_floor);
     out["band_Hz"] = r.last.band_Hz;
     out["next_experiment"] = next_json(r.last.next);
+    out["outside"] = outside_json(r.last);
     out["cannot_show"] = cannot_show_json(r.last.cannot_show);
     out["warnings"] = warnings;
     if (r.last.shortage) out["reason"] = r.last.shortage->why;
@@ -172,11 +186,18 @@ Json to_json(const Refinement& r, const Warnings& warnings, const Zeros& zeros, 
 }
 
 Json no_refinement() {
-    return {
-        {"schema", "servoid.refine/1"}, {"verdict", nullptr},       {"ladder", Json::array()},
-        {"removed", Json::array()},     {"model", nullptr},         {"model_parameters", nullptr},
-        {"noise_floor", nullptr},       {"band_Hz", nullptr},       {"next_experiment", nullptr},
-        {"cannot_show", Json::array()}, {"warnings", Json::array()}};
+    return {{"schema", "servoid.refine/1"},
+            {"verdict", nullptr},
+            {"ladder", Json::array()},
+            {"removed", Json::array()},
+            {"model", nullptr},
+            {"model_parameters", nullptr},
+            {"noise_floor", nullptr},
+            {"band_Hz", nullptr},
+            {"next_experiment", nullptr},
+            {"outside", nullptr},
+            {"cannot_show", Json::array()},
+            {"warnings", Json::array()}};
 }
 
 void print(const Output& out, const Refinement& r, bool ampere) {
@@ -202,8 +223,9 @@ void answer_refine(const RefineOptions& o) {
     const bool ampere = captures.front().torque_in_ampere;
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const Warnings warnings = check_capture(model, motions, o.output);
-    const Refinement r =
+    Refinement r =
         refine(model, motions, prepare_all(unseen, o.captures.motion()), with_progress(o.output));
+    advise_to_add(r.last, o.out.empty() || o.out == "-" ? "MODEL" : o.out, o.captures);
     if (!o.out.empty()) write_file(o.out, format_model(r.result.model));
     Zeros zeros = zeros_of(r.result.homing, captures);
     for (const CaptureZero& zero : zeros_of(r.validation_homing, unseen))

@@ -69,9 +69,9 @@ std::string advice_for(const Diagnosis& d) {
     case Verdict::ambiguous:
         if (!d.outside.empty())
             return fmt::format(
-                "{} and a smooth law that has no name here, {}, explain the residual "
-                "equally well; record {}",
-                d.candidates[0].effect, d.outside,
+                "{} and a smooth law that has no name here explain the residual equally "
+                "well; record {}",
+                d.candidates[0].effect,
                 d.candidates[0].effect == "hard_stop"
                     ? "a travel that goes further on either side"
                     : "constant speeds up to twice the present top speed");
@@ -79,10 +79,9 @@ std::string advice_for(const Diagnosis& d) {
                            record_next(d));
     case Verdict::unknown:
         if (!d.outside.empty())
-            return fmt::format(
-                "a smooth law that has no name here, {}, explains the residual better "
-                "than {}: see `servoid effects custom`",
-                d.outside, d.candidates[0].effect);
+            return fmt::format("a smooth law that has no name here explains the residual better "
+                               "than {}",
+                               d.candidates[0].effect);
         return d.probes.empty()
                    ? "the residual repeats, and nothing in the catalogue explains it"
                    : fmt::format("nothing in the catalogue explains the residual; a function of {} "

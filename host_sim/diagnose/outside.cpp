@@ -27,8 +27,9 @@ EffectTerm cubic(const std::string& u, int least) {
     out.name = "custom.cubic";
     for (int power = least; power <= 3; ++power) {
         const std::string key = fmt::format("k{}", power);
-        out.law +=
-            (power > least ? "+" : "") + (power ? fmt::format("{}*{}^{}", key, u, power) : key);
+        out.law += (power > least ? "+" : "") + key;
+        if (power > 0) out.law += "*" + u;
+        if (power > 1) out.law += fmt::format("^{}", power);
         out.parameters[key] = 0;
     }
     return out;

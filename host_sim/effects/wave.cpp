@@ -123,8 +123,9 @@ Hiding OrderEffect::hide_fraction(Draw& draw) const {
 
 double OrderEffect::whole_order_evidence(const Estimates& estimates,
                                          const MotionView& motion) const {
-    if (motion.kind != Motion::rotary) return 0;
-    const Estimate& order = estimates.at("order");
+    const auto found = estimates.find("order"); // a term may hold a period instead
+    if (motion.kind != Motion::rotary || found == estimates.end()) return 0;
+    const Estimate& order = found->second;
     if (order.value < 1.5) return 0; // once a turn is gravity's
     const double within = std::max(2 * order.std, 0.02);
     const double off = std::abs(order.value - std::round(order.value));

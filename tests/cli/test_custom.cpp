@@ -63,6 +63,46 @@ TEST(AddCustom, StartValuesFollowTheLaw) {
     EXPECT_NEAR(json.at("model_parameters").at("custom.s.n").at("value").get<double>(), 7, 0.01);
 }
 
+// What stands behind "to add it: " in the advice.
+std::string advised_command(const Json& diagnosis) {
+    const std::string advice = diagnosis.at("advice");
+    const size_t at = advice.find("servoid add ");
+    return at == std::string::npos ? "" : advice.substr(at);
+}
+
+Ended pasted(const std::string& command, const Folder& folder) {
+    std::ofstream(folder / "paste") << "cd " << quoted(folder / ".") << "\nservoid() { "
+                                    << quoted(SERVOID_PROGRAM) << " \"$@\"; }\n"
+                                    << command << "\n";
+    const int status = std::system(("sh " + quoted(folder / "paste") + " >" +
+                                    quoted(folder / "out") + " 2>" + quoted(folder / "err"))
+                                       .c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out"),
+            text_of(folder / "err")};
+}
+
+// The model has a law of that name already, the file's name needs quotes.
+TEST(AddCustom, AsDiagnoseAdvisesIt) {
+    const Folder folder;
+    const std::string truth = model_with_law(folder, "k*theta^3", "k = 1e-4");
+    const std::string csv =
+        simulated(folder, truth, "trapezoid:stroke=6.283185307,torque_noise=1e-3", "it's a.csv");
+    const std::string known = folder / "known.toml";
+    std::ofstream(known) << text_of(example("system1.toml"))
+                         << "[effects.custom.cubic]\nlaw = \"k*sin(40*t)\"\n"
+                            "[effects.custom.cubic.parameters]\nk = 0\n";
+    const Json found = json_of(run({"diagnose", known, csv, "--band", "90", "--json"}));
+    const std::string command = advised_command(found);
+    EXPECT_TRUE(command.starts_with("servoid add 'custom.cubic2=k0+")) << found.at("advice");
+    EXPECT_NE(command.find(" --band 90 "), std::string::npos) << command;
+    const Ended ended = pasted(command, folder);
+    EXPECT_EQ(ended.code, 0) << command << ended.err;
+    const Json compared =
+        json_of(run({"compare", folder / "with_cubic2.toml", csv, "--band", "90", "--json"}));
+    EXPECT_GT(found.at("error_before").get<double>(), 0.2);
+    EXPECT_LT(compared.at("torque_error").get<double>(), 0.03);
+}
+
 TEST(AddCustom, WrongUsageEndsWith2) {
     const Folder folder;
     const std::string truth = model_with_law(folder, "k*theta^3", "k = 1e-4");

@@ -184,6 +184,26 @@ TEST(Json, PositionZeroOfACaptureThatWasNotHomed) {
     EXPECT_TRUE(json_of(run({"compare", truth, a, "--json"})).at("warnings").empty());
 }
 
+// A spring that stiffens looks like a stop; the law that explains more is in no catalogue.
+TEST(Json, LawOfNoCatalogue) {
+    const Folder folder;
+    const std::string truth = folder / "truth.toml";
+    std::ofstream(truth) << text_of(example("system1.toml"))
+                         << "[effects.custom.x]\nlaw = \"k*theta^3\"\n"
+                            "[effects.custom.x.parameters]\nk = 1e-4\n";
+    const std::string csv =
+        simulated(folder, truth, "trapezoid:stroke=6.283185307,torque_noise=1e-3", "a.csv");
+    const Json found = json_of(run({"diagnose", example("system1.toml"), csv, "--json"}));
+    EXPECT_EQ(found.at("verdict"), "unknown");
+    ASSERT_TRUE(found.at("outside").is_string());
+    EXPECT_NE(found.at("outside").get<std::string>().find("k0+k1*((theta-("), std::string::npos);
+    EXPECT_NE(found.at("outside").get<std::string>().find("^3"), std::string::npos);
+    EXPECT_EQ(found.at("outside").get<std::string>().find("^1"), std::string::npos);
+    const Json complete = json_of(run({"diagnose", truth, csv, "--json"}));
+    EXPECT_TRUE(complete.at("outside").is_null());
+    EXPECT_TRUE(json_of(run({"refine", truth, csv, "--json"})).at("outside").is_null());
+}
+
 TEST(Json, SimulateAndEffects) {
     const Folder folder;
     const Json done = json_of(run({"simulate", example("system1.toml"), "--experiment", "sine",

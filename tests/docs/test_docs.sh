@@ -11,6 +11,10 @@
 #                  ../shared/data): run by `--measured`
 #   exit=N         with one of these: the block ends with status N
 #   elsewhere      not run (it installs, builds or mounts); a `./command` in it must be there
+# A ```text block shows what the last ```sh block before it printed, on either stream: its lines must be
+# found there, in order, blanks aside, numbers within 2 % or one of their last digit, bars of any length
+# (tests/docs/shows.awk); a line `...` or `…` stands for whatever was left out. `text elsewhere` shows
+# something else, or what differs from run to run, such as seconds.
 # A ```c block marked `compiles` goes through the compiler with every warning. A block of neither kind
 # is an error, and so are a link to a file that is not there and a document without any.
 set -euo pipefail
@@ -31,7 +35,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$program" "$work/bin/servoid"
 PATH=$work/bin:$PATH
-failed=0 ran=0
+failed=0 ran=0 shown=0
 
 fail() { # WHERE WHAT [LOG]
     echo "$1: $2"
@@ -50,7 +54,8 @@ extract() { # DOCUMENT FOLDER
 }
 
 run_block() { # WHERE INFO SCRIPT FOLDER
-    local wanted=0 status=0 log=$work/log
+    local wanted=0 status=0
+    log=$work/log
     [[ ! " $2 " =~ \ exit=([0-9]+)\  ]] || wanted=${BASH_REMATCH[1]}
     (cd "$4" && timeout 120 bash -eu "$3") >"$log" 2>&1 </dev/null || status=$?
     ran=$((ran + 1))
@@ -64,6 +69,18 @@ compile_block() { # WHERE SCRIPT
         >"$log" 2>&1 || fail "$1" "does not compile" "$log"
 }
 
+shown_block() { # WHERE TEXT
+    case $last_sh in
+    "sh $kind "*) ;;
+    "sh runnable "* | "sh measured "*) return ;; # the other run's
+    *) fail "$1" "\`\`\`text: shows no block that is run (see tests/docs/test_docs.sh)"; return ;;
+    esac
+    local missing
+    shown=$((shown + 1))
+    missing=$(awk -f "$source_dir/tests/docs/shows.awk" "$log" "$2") ||
+        fail "$1" "not in the output of the block before:"$'\n'"$missing"
+}
+
 commands_exist() { # WHERE SCRIPT
     local command
     for command in $(grep -oE '^\./[^ ]+' "$2" || true); do
@@ -72,7 +89,10 @@ commands_exist() { # WHERE SCRIPT
 }
 
 block() { # WHERE INFO SCRIPT FOLDER
+    [[ ! $2 =~ ^sh ]] || last_sh="$2 "
     case "$2 " in
+    "text elsewhere "*) ;;
+    "text "*) shown_block "$1" "$3" ;;
     "sh runnable "*) [ $kind != runnable ] || run_block "$@" ;;
     "sh measured "*) [ $kind != measured ] || run_block "$@" ;;
     "sh elsewhere "*) commands_exist "$1" "$3" ;;
@@ -96,11 +116,12 @@ for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/*/READ
     cp -r examples "$folder/"
     extract "$document" "$blocks"
     links "$document"
+    last_sh=
     for info in $(find "$blocks" -name '*.info' | sort -V); do
         text=${info%.info}.text
         block "$document:$(basename "$info" .info)" "$(cat "$info")" "$text" "$folder"
     done
 done
 
-echo "$ran blocks run, $failed failed"
+echo "$ran blocks run, $shown of their outputs compared, $failed failed"
 ((failed == 0 && ran > 0))

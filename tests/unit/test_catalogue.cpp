@@ -152,3 +152,10 @@ TEST(Catalogue, WhatCannotStandTogether) {
 }
 
 } // namespace
+
+// Only a model made in memory can hold a period on a rotary axis; there is no order to judge.
+TEST(Order, IsNotAskedOfATermThatHoldsAPeriod) {
+    const Estimates estimates = {{"amplitude", {1, 0.1}}, {"period", {0.5, 0.01}}};
+    for (const char* name : {"cogging", "torque_ripple"})
+        EXPECT_EQ(find_effect(name)->evidence(estimates, MotionView{}), 0) << name;
+}
