@@ -109,12 +109,14 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
     const bool luck = near_floor && gain < 0.25;
     if (!any || luck || gain < kLeastGain || slight || none > 0.5)
         return without_candidate(d, assembler);
-    if (look_ahead && unexplained(d, d.candidates.front(), assembler)) return Verdict::unknown;
-    if (look_ahead)
-        if (const auto rival = outside_rival(d, d.candidates.front(), assembler)) {
-            d.outside = rival->law;
-            return rival->z > kTellsApart ? Verdict::unknown : Verdict::ambiguous;
-        }
+    const auto rival = outside_rival(d, d.candidates.front(), assembler);
+    const bool better = rival && rival->z > kTellsApart;
+    if (!better && look_ahead && unexplained(d, d.candidates.front(), assembler))
+        return Verdict::unknown;
+    if (rival) {
+        d.outside = rival->law;
+        return better ? Verdict::unknown : Verdict::ambiguous;
+    }
     return family_probability(d) >= kSure ? Verdict::missing : Verdict::ambiguous;
 }
 

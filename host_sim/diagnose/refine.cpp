@@ -45,6 +45,8 @@ const Candidate* next_step(const Diagnosis& d) {
         if (!best && c.sound && gain_of(d, c) >= worth) best = &c;
     }
     if (!best) return nullptr;
+    // A law of no catalogue explains more than the best of it.
+    if (d.verdict == Verdict::unknown && !d.outside.empty()) return nullptr;
     for (const Candidate& c : d.candidates)
         if (c.sound && is_richer_form(best->effect, c.effect) &&
             gain_of(d, c) > 0.8 * gain_of(d, *best))

@@ -199,6 +199,9 @@ TEST(Json, LawOfNoCatalogue) {
     EXPECT_NE(found.at("outside").get<std::string>().find("k0+k1*((theta-("), std::string::npos);
     EXPECT_NE(found.at("outside").get<std::string>().find("^3"), std::string::npos);
     EXPECT_EQ(found.at("outside").get<std::string>().find("^1"), std::string::npos);
+    const Json climbed = json_of(run({"refine", example("system1.toml"), csv, "--json"}));
+    EXPECT_EQ(climbed.at("ladder").size(), 1u) << "a stop was added that is not there";
+    EXPECT_TRUE(climbed.at("outside").is_string());
     const Json complete = json_of(run({"diagnose", truth, csv, "--json"}));
     EXPECT_TRUE(complete.at("outside").is_null());
     EXPECT_TRUE(json_of(run({"refine", truth, csv, "--json"})).at("outside").is_null());
