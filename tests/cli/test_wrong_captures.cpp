@@ -41,6 +41,17 @@ Json refused_json(const Ended& ended) {
     return json.is_object() ? json : Json::object();
 }
 
+// What `diagnose` says of a capture that cannot answer.
+struct Insufficient {
+    explicit Insufficient(const std::string& csv)
+        : ended(run({"diagnose", example("system1.toml"), csv, "--json"})),
+          json(refused_json(ended)) {
+        EXPECT_EQ(json.at("verdict"), "insufficient");
+    }
+    Ended ended;
+    Json json;
+};
+
 } // namespace
 
 TEST(WrongCapture, EveryVerbThatFitsRefusesAReversedTorque) {
@@ -104,10 +115,8 @@ TEST(WrongCapture, AGainIsAWarningOnStderrAndInTheJson) {
 TEST(Insufficient, ARefusalIsAnAnswerInJson) {
     const Folder folder;
     const std::string csv = reversed(folder);
-    const Ended ended = run({"diagnose", example("system1.toml"), csv, "--json"});
-    const Json json = refused_json(ended);
+    const auto [ended, json] = Insufficient(csv);
     EXPECT_EQ(json.at("schema"), "servoid.diagnose/1");
-    EXPECT_EQ(json.at("verdict"), "insufficient");
     EXPECT_NE(json.at("reason").get<std::string>().find("reversed"), std::string::npos);
     EXPECT_TRUE(json.at("advice").get<std::string>().starts_with("record instead: "));
     EXPECT_EQ(json.at("candidates").size(), 0u);
@@ -142,9 +151,7 @@ std::string one_speed(const Folder& folder) {
 TEST(Insufficient, OneConstantSpeed) {
     const Folder folder;
     const std::string csv = one_speed(folder);
-    const Ended ended = run({"diagnose", example("system1.toml"), csv, "--json"});
-    const Json json = refused_json(ended);
-    EXPECT_EQ(json.at("verdict"), "insufficient");
+    const auto [ended, json] = Insufficient(csv);
     EXPECT_TRUE(json.at("error_before").is_number());
     EXPECT_FALSE(json.at("candidates").empty());
     ASSERT_FALSE(json.at("cannot_show").empty());

@@ -1,8 +1,8 @@
 // Delays that are put in: into torques from closed forms, and into the simulated drive.
 #include "common/error.hpp"
 #include "compare/lag.hpp"
-#include "plant/simulate.hpp"
-#include "unit/motion_helpers.hpp"
+#include "unit/drive_helpers.hpp"
+#include "unit/rigid_axis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,33 +13,16 @@ using namespace servoid;
 
 namespace {
 
-constexpr double kInertia = 0.012, kViscous = 0.03, kOffset = -0.05;
-
-EffectTerm term(const std::string& name, const std::map<std::string, double>& parameters) {
-    EffectTerm out;
-    out.name = name, out.parameters = parameters;
-    return out;
-}
-
-Model believed() {
-    Model model;
-    model.inertia = kInertia;
-    model.effects = {term("viscous", {{"coefficient", kViscous}}),
-                     term("constant_torque", {{"torque", kOffset}})};
-    return model;
-}
-
-double true_torque(double t) {
-    const Kinematics k = two_sines(t);
-    return kInertia * k.acceleration + kViscous * k.velocity + kOffset;
-}
+Model believed() { return rigid_axis(kInertia, kViscous, kOffset); }
 
 // Recorded so much before it acts.
 Capture early_by(double lag_s, double noise = 0, unsigned seed = 1) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> gauss(0, 1);
     return sampled(
-        [&](const Kinematics&, double t) { return true_torque(t + lag_s) + noise * gauss(random); },
+        [&](const Kinematics&, double t) {
+            return rigid_torque(two_sines(t + lag_s)) + noise * gauss(random);
+        },
         12);
 }
 
@@ -127,21 +110,10 @@ TEST(Lag, BeyondTheSearchThereIsNone) {
     EXPECT_FALSE(lag_in(believed(), early_by(0.055)));
 }
 
-Model drive(const std::string& more = "") {
-    return parse_model(
-        "motion = \"rotary\"\n[plant]\ninertia = 5.56e-5\n[controller]\ntype = \"p_pi\"\n"
-        "position_gain = 40.0\nspeed_gain = 7e-3\nintegral_time = 0.016\nsample_time = 125e-6\n"
-        "[sensor]\ncounts_per_rev = 131072\n[drive]\nrated_torque = 0.637\n"
-        "[effects.viscous]\ncoefficient = 9.6e-4\n[effects.coulomb]\ntorque = 2.1e-2\n" +
-            more,
-        "drive");
-}
-
 std::optional<Estimate> simulated_lag(const Model& truth, const Model& model,
                                       const std::string& move) {
-    const Capture c = simulate(truth, parse_experiment(move), 3);
-    const std::vector<PreparedMotion> motions = {prepare_motion(c, {})};
-    return lag_of_torque(model, motions);
+    const Recorded r(truth, move);
+    return lag_of_torque(model, r.motions);
 }
 
 const char* const kMoves[] = {

@@ -155,6 +155,15 @@ Records old_cannot_new_can(const Case& c) {
     return out;
 }
 
+// An effect that the motor with its friction hides, in a record that cannot tell what it is.
+struct Hidden {
+    Hidden(const EffectTerm& effect, const std::string& move)
+        : base(motor({kViscous, kCoulomb})), truth(motor({kViscous, kCoulomb, effect})),
+          old(truth, with_noise(move, 5e-4), 3) {}
+    Model base, truth;
+    Recorded old;
+};
+
 // How far the speeds of a record are apart: the fast tenth over the slow quarter.
 double speed_range(const PreparedMotion& m) {
     std::vector<double> speed;
@@ -207,13 +216,9 @@ TEST(NextExperiment, CoggingOrDisturbanceTakesOtherSpeeds) {
 }
 
 TEST(NextExperiment, LagOrDeadTimeGoesHigher) {
-    const Model base = motor({kViscous, kCoulomb});
-    const Model truth = motor({kViscous, kCoulomb, term("torque_lag", {{"time_constant", 5e-4}})});
-    const Recorded old(truth,
-                       "multisine:from_Hz=1,to_Hz=12,step_Hz=1,amplitude=1,periods=4,"
-                       "torque_noise=5e-4",
-                       3);
-    const Proposed p = propose("lag or dead time", base, {"torque_lag", "dead_time"}, old);
+    const Hidden h(term("torque_lag", {{"time_constant", 5e-4}}),
+                   "multisine:from_Hz=1,to_Hz=12,step_Hz=1,amplitude=1,periods=4");
+    const Proposed p = propose("lag or dead time", h.base, {"torque_lag", "dead_time"}, h.old);
     ASSERT_TRUE(p.next);
     EXPECT_GT(p.next->separation, kWorthRecording);
     const std::string& text = p.next->experiment;
@@ -224,26 +229,21 @@ TEST(NextExperiment, LagOrDeadTimeGoesHigher) {
 
 // An arc so small is a line: within the recorded travel nothing helps, and it is said so.
 TEST(NextExperiment, SpringOrGravityNeedsMoreTravelThanIsAllowed) {
-    const Model base = motor({kViscous, kCoulomb});
-    const Model truth =
-        motor({kViscous, kCoulomb, term("gravity", {{"torque", 4e-3}, {"phase", 0}})});
-    const Recorded old(truth,
-                       "trapezoid:stroke=0.6,velocity=20,acceleration=2000,cycles=8,start=-0.3,"
-                       "torque_noise=5e-4",
-                       3);
-    const Proposed within = propose("gravity or spring", base, {"gravity", "spring"}, old);
+    const Hidden h(term("gravity", {{"torque", 4e-3}, {"phase", 0}}),
+                   "trapezoid:stroke=0.6,velocity=20,acceleration=2000,cycles=8,start=-0.3");
+    const Proposed within = propose("gravity or spring", h.base, {"gravity", "spring"}, h.old);
     ASSERT_TRUE(within.next);
     EXPECT_LT(within.next->separation, kWorthRecording);
-    MoveLimits wider = limits_of(within.rivals[0], old.motions);
+    MoveLimits wider = limits_of(within.rivals[0], h.old.motions);
     wider.lowest = -2.5, wider.highest = 2.5;
-    const auto next = next_experiment(within.rivals, old.motions, within.noise, wider);
+    const auto next = next_experiment(within.rivals, h.old.motions, within.noise, wider);
     ASSERT_TRUE(next);
     std::printf("figure: the same with ±2.5 rad: %s, separation %.3g\n", next->experiment.c_str(),
                 next->separation);
     EXPECT_GT(next->separation, 1);
-    expect_within(wider, truth, *next);
-    const Recorded far(truth, with_noise(next->experiment, 5e-4), 4);
-    const Diagnosis after = diagnose(base, far.motions);
+    expect_within(wider, h.truth, *next);
+    const Recorded far(h.truth, with_noise(next->experiment, 5e-4), 4);
+    const Diagnosis after = diagnose(h.base, far.motions);
     print("gravity or spring, wider", after);
     EXPECT_GT(probability_of("gravity", after), 0.9);
 }

@@ -2,7 +2,7 @@
 #include "common/error.hpp"
 #include "compare/compare.hpp"
 #include "compare/regression.hpp"
-#include "unit/motion_helpers.hpp"
+#include "unit/rigid_axis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,34 +16,17 @@ using namespace servoid;
 
 namespace {
 
-constexpr double kInertia = 0.012, kViscous = 0.03, kOffset = -0.05;
 constexpr double kClose = 2e-5; // what the smoothing of the motion leaves in its pass band
 
-EffectTerm term(const std::string& name, const std::map<std::string, double>& parameters) {
-    EffectTerm out;
-    out.name = name, out.parameters = parameters;
-    return out;
-}
-
 // Start values that are all wrong.
-Model believed() {
-    Model model;
-    model.inertia = 1;
-    model.effects = {term("viscous", {{"coefficient", 1}}),
-                     term("constant_torque", {{"torque", 1}})};
-    return model;
-}
-
-double true_torque(const Kinematics& k) {
-    return kInertia * k.acceleration + kViscous * k.velocity + kOffset;
-}
+Model believed() { return rigid_axis(1, 1, 1); }
 
 FitResult fit_one(const Model& model, const Capture& capture, double band_Hz = 40) {
     return fit(model, prepare_all({&capture, 1}, {band_Hz, {}}));
 }
 
 TEST(Regression, KnownCoefficientsComeBack) {
-    const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return rigid_torque(k); }, 6);
     const FitResult f = fit_one(believed(), c);
     EXPECT_NEAR(f.values[0], kInertia, kClose * kInertia);
     EXPECT_NEAR(f.values[1], kViscous, kClose * kViscous);
@@ -56,7 +39,7 @@ TEST(Regression, KnownCoefficientsComeBack) {
 }
 
 TEST(Regression, SeveralCapturesWithDifferentSampleTimes) {
-    const auto law = [](const Kinematics& k, double) { return true_torque(k); };
+    const auto law = [](const Kinematics& k, double) { return rigid_torque(k); };
     const std::vector<Capture> captures = {sampled(law, 4), sampled(law, 5, 0.5e-3)};
     const FitResult f = fit(believed(), prepare_all(captures, {40.0, {}}));
     EXPECT_NEAR(f.values[0], kInertia, kClose * kInertia);
@@ -68,7 +51,7 @@ TEST(Regression, PeriodInMetres) {
     constexpr double kPeriod_m = 0.35, kAmplitude = 0.2;
     Capture c = sampled(
         [](const Kinematics& k, double) {
-            return true_torque(k) +
+            return rigid_torque(k) +
                    kAmplitude * std::sin(2 * std::numbers::pi / kPeriod_m * k.position + 0.4);
         },
         12);
@@ -91,7 +74,7 @@ TEST(Regression, PeriodInMetres) {
 }
 
 TEST(Regression, FixedParametersStay) {
-    const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return rigid_torque(k); }, 6);
     Model model = believed();
     model.inertia = 0.02, model.inertia_fixed = true;
     model.effects[0].parameters["coefficient"] = 0.05;
@@ -106,7 +89,7 @@ TEST(Regression, FixedParametersStay) {
 }
 
 TEST(Regression, EverythingFixedIsOnlyCompared) {
-    const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return rigid_torque(k); }, 6);
     Model model = believed();
     model.inertia = kInertia, model.inertia_fixed = true;
     model.effects = {};
@@ -137,21 +120,21 @@ TEST(Regression, OffsetHasNoBound) {
 }
 
 TEST(Regression, EqualColumnsAreRefused) {
-    const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return rigid_torque(k); }, 6);
     Model model = believed();
     model.effects.push_back(term("viscous", {{"coefficient", 1}}));
     EXPECT_THROW(fit_one(model, c), Refusal);
 }
 
 TEST(Regression, ReversedSignIsRefused) {
-    const Capture c = sampled([](const Kinematics& k, double) { return -true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return -rigid_torque(k); }, 6);
     Model model;
     model.inertia = 1;
     EXPECT_THROW(fit_one(model, c), Refusal);
 }
 
 TEST(Regression, ModelTorqueIsColumnsTimesValues) {
-    const Capture c = sampled([](const Kinematics& k, double) { return true_torque(k); }, 6);
+    const Capture c = sampled([](const Kinematics& k, double) { return rigid_torque(k); }, 6);
     const FitResult f = fit_one(believed(), c);
     const std::vector<PreparedMotion> motions = prepare_all({&c, 1}, {40.0, {}});
     const Assembly r = Assembler(motions).assemble(f.model);
@@ -184,7 +167,7 @@ Capture with_errors(double memory, unsigned seed) {
     return sampled(
         [&](const Kinematics& k, double) {
             error = memory * error + gauss(random);
-            return true_torque(k) + error;
+            return rigid_torque(k) + error;
         },
         20, 4e-3);
 }

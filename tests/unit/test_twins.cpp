@@ -8,7 +8,7 @@
 #include "diagnose/structure.hpp"
 #include "diagnose/twin.hpp"
 #include "effects/catalogue.hpp"
-#include "plant/simulate.hpp"
+#include "unit/drive_helpers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +18,6 @@
 using namespace servoid;
 
 namespace {
-
-// System 2 of the paper without its elastic load.
-std::string slider(const std::string& more = "") {
-    return "motion = \"rotary\"\n[plant]\ninertia = 5.56e-5\n"
-           "[controller]\ntype = \"p_pi\"\nposition_gain = 40.0\nspeed_gain = 7e-3\n"
-           "integral_time = 0.016\nsample_time = 125e-6\n[sensor]\ncounts_per_rev = 131072\n"
-           "[drive]\nrated_torque = 0.637\n[effects.viscous]\ncoefficient = 9.6e-4\n"
-           "[effects.coulomb]\ntorque = 2.1e-2\n" +
-           more;
-}
-
-Model model_of(const std::string& more = "") { return parse_model(slider(more), "slider"); }
 
 Capture capture_of(const Model& truth, const std::string& move, unsigned long seed = 3) {
     return simulate(truth, parse_experiment(move), seed);
@@ -76,7 +64,7 @@ constexpr const char* kMultisine =
 } // namespace
 
 TEST(LoopTwin, OfTheTruthIsTheCapture) {
-    const Model truth = model_of();
+    const Model truth = drive();
     const Capture capture = capture_of(truth, std::string(kSlowTurns) + ",rest=0.01");
     const auto twin = loop_twin(truth, capture);
     ASSERT_TRUE(twin);
@@ -85,7 +73,7 @@ TEST(LoopTwin, OfTheTruthIsTheCapture) {
 }
 
 TEST(LoopTwin, StartsInsideARepeatedMotionWithItsIntegratorFilled) {
-    const Model truth = model_of("[effects.constant_torque]\ntorque = 0.05\n");
+    const Model truth = drive("[effects.constant_torque]\ntorque = 0.05\n");
     const Capture whole = capture_of(truth, "sine:frequency_Hz=5,periods=6,amplitude=1");
     Capture later = without_first(whole, 1600);
     later.period_s = 0.2;
@@ -97,21 +85,21 @@ TEST(LoopTwin, StartsInsideARepeatedMotionWithItsIntegratorFilled) {
 }
 
 TEST(LoopTwin, NeedsALoopAReferenceAndAPosition) {
-    const Capture capture = capture_of(model_of(), kSlowTurns);
-    Model no_loop = model_of();
+    const Capture capture = capture_of(drive(), kSlowTurns);
+    Model no_loop = drive();
     no_loop.controller.reset();
     EXPECT_FALSE(loop_twin(no_loop, capture));
     Capture no_reference = capture;
     no_reference.position_ref.clear();
-    EXPECT_FALSE(loop_twin(model_of(), no_reference));
+    EXPECT_FALSE(loop_twin(drive(), no_reference));
     Capture other_rate = capture;
     other_rate.sample_time_s *= 1.5;
-    EXPECT_FALSE(loop_twin(model_of(), other_rate));
+    EXPECT_FALSE(loop_twin(drive(), other_rate));
 }
 
 // A slow log of a fast loop: every fourth row.
 TEST(LoopTwin, SimulatesThePeriodsThatWereNotRecorded) {
-    const Model truth = model_of();
+    const Model truth = drive();
     const Capture whole = capture_of(truth, std::string(kSlowTurns) + ",rest=0.01");
     const Capture fourth = every(4, whole);
     const auto twin = loop_twin(truth, fourth);
@@ -138,32 +126,35 @@ TEST(Twins, TakeOutWhatTheMethodLeavesOfACompleteModel) {
     EXPECT_NEAR(freed.model.inertia, truth.inertia, 0.01 * truth.inertia);
 }
 
-// Half of what noise leaves can look like an elastic load: the loop has fed it round.
+// Where a stiff loop answers noise with torque far above what moves the axis, a delay or an elastic
+// load takes up a third of an error in which nothing is missing.
 TEST(Twins, NoiseGainsAsMuchWithoutAnEffect) {
-    const Model truth = model_of();
-    const std::vector<Capture> captures = {capture_of(truth, kMultisine)};
-    const auto motions = prepare_all(captures, {});
+    Model truth = drive();
+    truth.controller->speed_gain = 5e-2;
+    const std::vector<Capture> captures = {capture_of(
+        truth,
+        "multisine:from_Hz=2,to_Hz=20,step_Hz=2,amplitude=0.05,periods=2,torque_noise=2e-2")};
+    const auto motions = prepare_all(captures, {400.0, {}});
     Assembler assembler(motions);
     const FitResult before = fit(truth, assembler);
     for (const char* name : {"elastic_load", "dead_time", "torque_lag"}) {
         const Effect& effect = *find_effect(name);
-        double gain = 0;
-        try {
-            gain = std::log(before.torque_error / fit_with(before, effect, assembler).torque_error);
-        } catch (const Refusal&) {
-        }
+        const FitResult after = fit_with(before, effect, assembler);
+        const double gain =
+            std::log(held_out_error(before, assembler) / held_out_error(after, assembler));
         const auto noise = gain_from_noise(before, effect, assembler);
         ASSERT_TRUE(noise);
-        std::printf("figure: %s on noise gains %.4f, on twins %.4f\n", name, gain, *noise);
-        EXPECT_LT(gain, *noise + 0.02);
+        std::printf("figure: %s on noise gains %.3f, on twins %.3f\n", name, gain, *noise);
+        EXPECT_GT(gain, 0.1) << name;
+        EXPECT_GT(*noise, 0.7 * gain) << name;
     }
     EXPECT_EQ(diagnose(truth, motions).verdict, Verdict::adequate);
 }
 
 TEST(Structure, IsSeenOfALawWithoutANameAndNotOfNoise) {
-    const Model known = model_of();
-    const Model truth = model_of("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
-                                 "[effects.custom.cubic.parameters]\nk = 1e-2\n");
+    const Model known = drive();
+    const Model truth = drive("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
+                              "[effects.custom.cubic.parameters]\nk = 1e-2\n");
     for (const bool hidden : {false, true}) {
         const std::vector<Capture> captures = {
             capture_of(hidden ? truth : known, std::string(kSlowTurns) + ",torque_noise=2e-3")};
@@ -179,9 +170,9 @@ TEST(Structure, IsSeenOfALawWithoutANameAndNotOfNoise) {
 }
 
 TEST(Diagnose, ACubicSpringIsUnknownAndOnesOwnLawBringsItToTheFloor) {
-    const Model known = model_of();
-    const Model truth = model_of("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
-                                 "[effects.custom.cubic.parameters]\nk = 1e-2\n");
+    const Model known = drive();
+    const Model truth = drive("[effects.custom.cubic]\nlaw = \"k*theta^3\"\n"
+                              "[effects.custom.cubic.parameters]\nk = 1e-2\n");
     const std::vector<Capture> captures = {
         capture_of(truth, std::string(kSlowTurns) + ",torque_noise=2e-3")};
     const auto motions = prepare_all(captures, {});
@@ -198,17 +189,17 @@ TEST(Diagnose, ACubicSpringIsUnknownAndOnesOwnLawBringsItToTheFloor) {
 
 TEST(Fit, HoldsAnInertiaThatAMissingLawTurnsOverAndRefusesAReversedTorque) {
     // Slow turns under strong gravity: the spring-like part of it is larger than J·ω².
-    const Model truth = model_of("[effects.gravity]\ntorque = 0.3\nphase = 0.0\n");
+    const Model truth = drive("[effects.gravity]\ntorque = 0.3\nphase = 0.0\n");
     std::vector<Capture> captures = {
         capture_of(truth, "sine:frequency_Hz=2,periods=4,amplitude=1")};
-    const FitResult held = fit(model_of(), prepare_all(captures, {}));
+    const FitResult held = fit(drive(), prepare_all(captures, {}));
     EXPECT_GT(held.model.inertia, 0);
-    const Diagnosis d = diagnose(model_of(), prepare_all(captures, {}));
+    const Diagnosis d = diagnose(drive(), prepare_all(captures, {}));
     ASSERT_FALSE(d.candidates.empty());
     EXPECT_TRUE(d.candidates[0].effect == "gravity" || d.candidates[0].effect == "spring");
 
-    captures = {capture_of(model_of(), kMultisine)};
+    captures = {capture_of(drive(), kMultisine)};
     for (double& t : captures[0].torque_ref)
         t = -t;
-    EXPECT_THROW(fit(model_of(), prepare_all(captures, {})), Refusal);
+    EXPECT_THROW(fit(drive(), prepare_all(captures, {})), Refusal);
 }
