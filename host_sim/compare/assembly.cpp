@@ -83,6 +83,17 @@ TorqueSignal delivered_by(const Model& model, TorqueSignal asked) {
     return asked;
 }
 
+double noise_passed(const Model& model, const std::vector<PreparedMotion>& motions) {
+    double power = 0, all = 0;
+    for (const PreparedMotion& m : motions) {
+        double share = 1;
+        for (const EffectTerm& term : model.effects)
+            share *= effect_of(term).noise_passed(term, m.asked, m.band_Hz);
+        power += share * share * double(m.used_count()), all += double(m.used_count());
+    }
+    return std::sqrt(power / all);
+}
+
 Assembler::Assembler(const std::vector<PreparedMotion>& motions) : motions_(motions) {
     for (size_t i = 0; i < motions.size(); ++i) {
         views_.push_back(motions[i].motion);

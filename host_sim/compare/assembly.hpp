@@ -17,7 +17,7 @@ struct Coefficient {
     int index = 0;
     bool fixed = false;
     double lower = 0;
-    bool may_vanish = false; // a column of zeros leaves it as it is
+    bool may_vanish = false; // a column of zeros leaves its parameter as it is
 };
 
 // What a model needs for one or several captures; rows are the used points of all of them.
@@ -75,6 +75,8 @@ std::vector<Coefficient> coefficients_of(const Model& model);
 
 // What arrives at the motor of the torque that was asked for.
 TorqueSignal delivered_by(const Model& model, TorqueSignal asked);
+// The share of its noise, in amplitude, that arrives with it (Effect::noise_passed).
+double noise_passed(const Model& model, const std::vector<PreparedMotion>& motions);
 
 // The motion with what the rest of the model says filled in, for laws that change others.
 MotionView in_context(const Model& model, MotionView view);

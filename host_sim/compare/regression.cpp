@@ -30,18 +30,21 @@ struct State {
     Assembly assembly;
     LinearFit linear;
     Vector residual;
-    double error = 0; // ‖r‖/‖T‖
+    double error = 0;        // ‖r‖/‖T‖
+    double noise_passed = 1; // of the asked torque's, in amplitude
     Homing homing;
+    double score() const { return error / noise_passed; }
 };
 
 State evaluate(const Model& model, Assembler& assembler) {
-    State s{model, assembler.assemble(model), {}, {}, 0, assembler.homing()};
-    std::vector<bool> fixed;
+    State s{model, assembler.assemble(model), {}, {}, 0, 1, assembler.homing()};
+    std::vector<bool> fixed, vanished;
     std::vector<double> lower;
     for (size_t i = 0; i < s.assembly.coefficients.size(); ++i) {
         const Coefficient& c = s.assembly.coefficients[i];
-        const bool vanishes = c.may_vanish && !(s.assembly.columns.col(Eigen::Index(i)).norm() > 0);
-        fixed.push_back(c.fixed || vanishes), lower.push_back(c.lower);
+        const bool zero = !(s.assembly.columns.col(Eigen::Index(i)).norm() > 0);
+        vanished.push_back(c.may_vanish && zero);
+        fixed.push_back(c.fixed || vanished.back()), lower.push_back(c.lower);
     }
     s.linear =
         solve({s.assembly.columns, s.assembly.torque, coefficient_values(model), fixed, lower});
@@ -49,10 +52,15 @@ State evaluate(const Model& model, Assembler& assembler) {
     s.error = s.residual.norm() / std::max(1e-300, s.assembly.torque.norm());
     // A limit or a gain that lets no torque through explains everything and nothing.
     const bool delivers = s.assembly.torque.norm() > kLeastDelivered * assembler.asked_norm();
-    if (s.linear.solved && delivers)
-        set_coefficient_values(s.model, s.linear.values);
-    else
+    s.noise_passed = noise_passed(model, assembler.motions());
+    if (!s.linear.solved || !delivers) {
         s.error = INFINITY;
+        return s;
+    }
+    Vector told = s.linear.values;
+    for (size_t i = 0; i < vanished.size(); ++i)
+        if (vanished[i]) told[Eigen::Index(i)] = NAN;
+    set_coefficient_values(s.model, told);
     return s;
 }
 
@@ -65,8 +73,9 @@ Matrix shape_slopes(const State& s, const std::vector<Shape>& shapes, Assembler&
         const double step = step_of(shapes[i], value);
         value += step;
         const Assembly a = assembler.assemble(moved);
-        // As a share of the torque, which a limit makes smaller: see `objective`.
-        const double scale = s.assembly.torque.norm() / std::max(1e-300, a.torque.norm());
+        // As a share of the torque and of its noise, which a limit makes smaller: see `objective`.
+        const double scale = s.assembly.torque.norm() / std::max(1e-300, a.torque.norm()) *
+                             s.noise_passed / noise_passed(moved, assembler.motions());
         // The coefficients of the moved term may be defined by its shapes: taken from the model.
         out.col(Eigen::Index(i)) =
             (scale * (a.torque - a.columns * coefficient_values(moved)) - s.residual) / step;
@@ -131,12 +140,13 @@ void stay_near_beliefs(std::vector<Shape>& shapes, const State& s, const FitOpti
 }
 
 // What the descent makes small: the power of the residual and the distance from what is believed.
-// The residual counts as a share of the delivered torque: a limit that is too low, with an inertia
-// that is too small by as much, would else leave less of everything (Box and Cox, JRSS B 26, 1964:
-// a transformed response needs its Jacobian).
+// The residual counts as a share of the delivered torque and of the noise that comes with it: a
+// limit that is too low, with an inertia that is too small by as much, would else leave less of
+// everything, and a lag less of the noise (Box and Cox, JRSS B 26, 1964: a transformed response
+// needs its Jacobian).
 double objective(const State& s, const std::vector<Shape>& shapes, double asked_norm) {
     if (!std::isfinite(s.error)) return INFINITY;
-    double sum = std::pow(s.error * asked_norm, 2);
+    double sum = std::pow(s.score() * asked_norm, 2);
     for (const Shape& shape : shapes)
         sum += shape.weight * std::pow(s.model.effects[shape.term].at(shape.key) - shape.belief, 2);
     return sum;
@@ -311,7 +321,7 @@ FitResult fit(const Model& model, Assembler& assembler, const FitOptions& option
     out.model = s.model;
     out.coefficients = s.assembly.coefficients;
     out.values = s.linear.values;
-    out.torque_error = s.error;
+    out.torque_error = s.error, out.noise_passed = s.noise_passed;
     out.converged = converged;
     out.residual = s.residual, out.torque = s.assembly.torque, out.block = s.assembly.block;
     out.artifact = assembler.artifact(), out.homing = s.homing;

@@ -33,6 +33,7 @@ struct FitResult {
     std::vector<std::string> at_bound;     // names of parameters on a bound
     double condition = 0;                  // of the scaled free columns
     double torque_error = 0;               // ‖T − T̂‖/‖T‖
+    double noise_passed = 1;               // of the asked torque's noise, in amplitude
     bool converged = false;                // false: the bound on iterations was met
     Eigen::VectorXd residual, torque;      // on the used points
     std::vector<int> block;                // of the used points, for correlated errors
@@ -41,6 +42,8 @@ struct FitResult {
     Homing homing;    // where the captures' position zeros lie
     int free_parameters = 0;
     size_t believed_terms = SIZE_MAX; // as in FitOptions
+    // What fits are compared by: what takes noise from the torque has no merit by that.
+    double score() const { return torque_error / noise_passed; }
 };
 
 struct FitOptions {

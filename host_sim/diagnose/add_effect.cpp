@@ -125,7 +125,7 @@ FitResult fit_with(const FitResult& fitted, const Effect& effect, Assembler& ass
     for (const Start& start : starts) {
         assembler.set_homing(start.homing);
         FitResult tried = fit(start.model, assembler, quick);
-        if (tried.torque_error < best.torque_error) best = std::move(tried);
+        if (tried.score() < best.score()) best = std::move(tried);
     }
     // The shapes that the model already had are moved too, where the effect is of any use.
     const bool useful = best.torque_error < 0.98 * fitted.torque_error;

@@ -82,11 +82,14 @@ std::string advice_for(const Diagnosis& d) {
             return fmt::format("a smooth law that has no name here explains the residual better "
                                "than {}",
                                d.candidates[0].effect);
-        return d.probes.empty()
-                   ? "the residual repeats, and nothing in the catalogue explains it"
-                   : fmt::format("nothing in the catalogue explains the residual; a function of {} "
-                                 "explains {:.0f} % of what is left",
-                                 d.probes[0].name, 100 * d.probes[0].explained);
+        if (!d.not_noise.empty())
+            return fmt::format("nothing in the catalogue explains the residual, which {} and is no "
+                               "function of position, velocity, acceleration or time; record the "
+                               "same move several times, and everything else that happens then",
+                               d.not_noise);
+        return fmt::format("nothing in the catalogue explains the residual; a function of {} "
+                           "explains {:.0f} % of what is left",
+                           d.probes[0].name, 100 * d.probes[0].explained);
     case Verdict::adequate:
         return "the residual is noise: nothing more can be learnt from it";
     case Verdict::insufficient:

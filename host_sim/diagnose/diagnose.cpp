@@ -95,7 +95,12 @@ Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
         effective_count(d.before.residual) < kWhite * double(d.before.residual.size());
     const bool bursts = d.error_before > std::max({3 * d.noise_floor, kLarge, own}) &&
                         peakedness(d.before.residual) > kPeaked;
-    return left.evident || repeats || coloured || bursts ? Verdict::unknown : Verdict::adequate;
+    if (left.evident) return Verdict::unknown;
+    d.not_noise = repeats    ? "repeats with the move"
+                  : bursts   ? "comes in bursts"
+                  : coloured ? "is alike from one instant to the next"
+                             : "";
+    return d.not_noise.empty() ? Verdict::adequate : Verdict::unknown;
 }
 
 Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
@@ -110,7 +115,7 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
     if (!any || luck || gain < kLeastGain || slight || none > 0.5)
         return without_candidate(d, assembler);
     const auto rival = outside_rival(d, d.candidates.front(), assembler);
-    const bool better = rival && rival->z > kTellsApart;
+    const bool better = rival && rival->z > kBetter;
     if (!better && look_ahead && unexplained(d, d.candidates.front(), assembler))
         return Verdict::unknown;
     if (rival) {

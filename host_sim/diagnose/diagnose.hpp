@@ -44,6 +44,7 @@ struct Diagnosis {
     std::optional<Everyday> everyday;
     std::vector<Candidate> candidates; // best first, every effect that was tried
     std::vector<Probe> probes;         // what the residual depends on, catalogue or not
+    std::string not_noise; // why a residual that depends on nothing is no noise: "comes in bursts"
     std::string
         outside; // a law of no catalogue that explains as much as the first candidate, or ""
     std::optional<NextExperiment> next; // what tells the rivals of an ambiguous verdict apart

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <vector>
 
 namespace servoid {
 
@@ -35,38 +37,60 @@ EffectTerm cubic(const std::string& u, int least) {
     return out;
 }
 
-std::optional<EffectTerm> rival_of(const std::string& effect, const Model& model,
-                                   const Assembler& assembler) {
+// Which effects may be taken for a bend of the torque over the position, or over the velocity.
+bool bends_over_position(const std::string& effect) {
+    static const std::set<std::string> all = {"hard_stop", "presliding", "load_friction",
+                                              "torque_saturation"};
+    return all.contains(effect);
+}
+bool bends_over_velocity(const std::string& effect) {
+    static const std::set<std::string> all = {"quadratic_drag", "stribeck",          "presliding",
+                                              "load_friction",  "torque_saturation", "dead_time",
+                                              "torque_lag",     "elastic_load"};
+    return all.contains(effect);
+}
+
+std::vector<EffectTerm> rivals_of(const std::string& effect, const Model& model,
+                                  const Assembler& assembler) {
     Range position, velocity;
     for (const MotionView& view : assembler.views())
         position.take(view.position), velocity.take(view.velocity);
-    if (effect == "hard_stop") {
-        const std::string u =
-            fmt::format("((theta-({:.6g}))/{:.6g})", position.middle(), position.half());
-        return cubic(u, model.find("spring") ? 2 : model.find("constant_torque") ? 1 : 0);
+    std::vector<EffectTerm> out;
+    const std::string u =
+        fmt::format("((theta-({:.6g}))/{:.6g})", position.middle(), position.half());
+    if (bends_over_position(effect) && position.low < position.high)
+        out.push_back(cubic(u, model.find("spring") ? 2 : model.find("constant_torque") ? 1 : 0));
+    if (bends_over_velocity(effect))
+        out.push_back(cubic(fmt::format("(v/{:.6g})", velocity.half()), 3));
+    return out;
+}
+
+// artifact: what the method leaves of the model before, or of the candidate.
+std::optional<Outside> compare_with(const EffectTerm& term, const Eigen::VectorXd& artifact,
+                                    const Diagnosis& d, const Candidate& candidate,
+                                    Assembler& assembler) {
+    Model model = d.before.model;
+    model.effects.push_back(term);
+    try {
+        assembler.set_artifact(artifact);
+        const FitResult rival = fit(model, assembler, going_on_from(d.before));
+        return Outside{term.law, gain_z(candidate.blocks_after, held_out_blocks(rival, assembler))};
+    } catch (const Refusal&) {
+        return std::nullopt;
     }
-    if (effect == "quadratic_drag" || effect == "stribeck")
-        return cubic(fmt::format("(v/{:.6g})", velocity.half()), 3);
-    return std::nullopt;
 }
 
 } // namespace
 
 std::optional<Outside> outside_rival(const Diagnosis& d, const Candidate& candidate,
                                      Assembler& assembler) {
-    const auto term = rival_of(candidate.effect, d.before.model, assembler);
-    if (!term) return std::nullopt;
-    Model model = d.before.model;
-    model.effects.push_back(*term);
-    try {
-        assembler.set_artifact(candidate.fit.artifact);
-        const FitResult rival = fit(model, assembler, going_on_from(d.before));
-        const double z = gain_z(candidate.blocks_after, held_out_blocks(rival, assembler));
-        if (z < -kTellsApart) return std::nullopt;
-        return Outside{term->law, z};
-    } catch (const Refusal&) {
-        return std::nullopt;
-    }
+    std::optional<Outside> best;
+    for (const EffectTerm& term : rivals_of(candidate.effect, d.before.model, assembler))
+        for (const auto* artifact : {&d.before.artifact, &candidate.fit.artifact}) {
+            const auto rival = compare_with(term, *artifact, d, candidate, assembler);
+            if (rival && rival->z > (best ? best->z : kWorse)) best = rival;
+        }
+    return best;
 }
 
 } // namespace servoid

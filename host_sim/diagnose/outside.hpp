@@ -16,7 +16,8 @@ struct Outside {
     double z = 0;    // of the rival's gain over the candidate, in its standard errors
 };
 
-constexpr double kTellsApart = 1.5; // |z| from which one of the two is better
+constexpr double kWorse = -1.5; // z below which the rival is none
+constexpr double kBetter = 3;   // z from which the law of the catalogue is the worse one
 
 // Nothing for a candidate without such a rival, or where the rival is worse.
 std::optional<Outside> outside_rival(const Diagnosis& diagnosis, const Candidate& candidate,

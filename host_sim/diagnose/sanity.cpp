@@ -20,10 +20,10 @@ constexpr double kReversed = 0.6; // error reversed over as recorded
 constexpr double kMatters = 0.05; // error as recorded: less is no sign of anything
 constexpr double kLate = 0.8;     // error shifted over as recorded, of a torque that is late
 constexpr double kLateSamples = 1.25;
-constexpr double kFarOff = 0.5;    // the same, of a torque that is early
-constexpr double kLeastZ = 4;      // of the gain, from block to block
-constexpr double kOverFloor = 4;   // power gained over the noise floor's
-constexpr double kFilter_s = 3e-3; // a measured current may be filtered for so long
+constexpr double kFarOff = 0.5;             // the same, of a torque that is early
+constexpr double kLeastZ = 4, kFarOffZ = 3; // of the gain, from block to block
+constexpr double kOverFloor = 4;            // power gained over the noise floor's
+constexpr double kFilter_s = 3e-3;          // a measured current may be filtered for so long
 constexpr double kShortest_s = 5e-3, kLongest_s = 0.02; // delay that a loop could survive
 
 // Gain from reading the torque later or earlier, over its standard error from block to block.
@@ -79,7 +79,8 @@ std::optional<Suspicion> shift_of(const Model& model, const TorqueMatch& match, 
                                   double delay_s, const Match& then, Assembler& assembler) {
     const std::vector<PreparedMotion>& motions = assembler.motions();
     const double sample_s = longest_sample(motions), ratio = then.error / now.error;
-    if (!(ratio < kLate) || z_of(match, now, then) < kLeastZ) return std::nullopt;
+    const double least_z = ratio < kFarOff ? kFarOffZ : kLeastZ;
+    if (!(ratio < kLate) || z_of(match, now, then) < least_z) return std::nullopt;
     const double gained = now.error * now.error - then.error * then.error;
     const double floor = noise_floor_of_all(model, motions).ratio;
     if (ratio > kFarOff && gained < kOverFloor * floor * floor) return std::nullopt;

@@ -24,7 +24,8 @@ constexpr double kOwnShare = 1e-3; // of a column's length that no other column 
 
 // The model with the plain laws that it has not.
 Model with_plain_laws(Model model, const MotionView& motion) {
-    for (const char* name : {"viscous", "coulomb", "constant_torque", "spring", "gravity"}) {
+    for (const char* name :
+         {"viscous", "coulomb", "constant_torque", "spring", "gravity", "quadratic_drag"}) {
         const Effect& effect = *find_effect(name);
         if (!cannot_add(effect, model).empty() || !effect.cannot_show(motion).empty()) continue;
         EffectTerm term;

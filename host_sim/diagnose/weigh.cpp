@@ -25,9 +25,9 @@ constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise 
 // are told apart by more than the number of samples.
 
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
-// Errors are told apart down to `least`.
+// Errors are told apart down to `least`, and none is smaller for noise that a lag or a limit took.
 double log_evidence(const FitResult& fit, double error, double count, double least) {
-    return -count * std::log(std::hypot(error, least)) -
+    return -count * std::log(std::hypot(error / fit.noise_passed, least)) -
            0.5 * fit.free_parameters * std::log(count);
 }
 

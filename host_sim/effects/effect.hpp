@@ -158,7 +158,7 @@ class Effect {
     virtual Eigen::VectorXd linear(const EffectTerm& term) const;
     virtual void set_linear(EffectTerm& term, const Eigen::VectorXd& coefficients) const;
     // Coefficients that go without saying where their column is zero (the offset of a spring beside
-    // a constant torque).
+    // a constant torque): set_linear then sees NaN and leaves their parameters as they are.
     virtual bool may_vanish(int) const { return false; }
     // The least a coefficient may be: the bound of its parameter; −∞ where it is one of a pair.
     virtual double linear_lower(int index) const;
@@ -173,6 +173,10 @@ class Effect {
     // Changes the asked torque into what reaches the motor (lag, dead time, saturation).
     virtual void deliver(const EffectTerm&, TorqueSignal&) const {}
     virtual bool delivers() const { return false; }
+    // The share of the noise of the asked torque, in amplitude, that it lets through in the band
+    // [0, band_Hz]: what smooths or clips the torque takes noise away, and that is no merit (the
+    // geometric mean over frequencies or samples: the Jacobian of a transformed response).
+    virtual double noise_passed(const EffectTerm&, const TorqueSignal&, double) const { return 1; }
 
     // Whether the columns depend on the torque.
     virtual bool uses_torque(const EffectTerm&) const { return false; }

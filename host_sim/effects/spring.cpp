@@ -53,6 +53,7 @@ class Spring : public Effect {
     }
     void set_linear(EffectTerm& term, const Eigen::VectorXd& c) const override {
         term.parameters["stiffness"] = c[0];
+        if (std::isnan(c[1])) return;
         term.parameters["rest_position"] = c[0] > 0 ? -c[1] / c[0] : 0.0;
     }
     std::string cannot_show(const MotionView& motion) const override {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace servoid {
 namespace {
@@ -59,6 +60,13 @@ class TorqueLag : public Effect {
     }
 
     bool delivers() const override { return true; }
+    // exp(mean over f of ln|1/(1 + 2πjfτ)|)
+    double noise_passed(const EffectTerm& term, const TorqueSignal&,
+                        double band_Hz) const override {
+        const double x = 2 * std::numbers::pi * band_Hz * term.at("time_constant");
+        if (!(x > 1e-6)) return 1;
+        return std::exp(1 - std::log1p(x * x) / 2 - std::atan(x) / x);
+    }
     // A slow one smooths the noise of the torque instead, and looks better for it.
     std::string implausible(const EffectTerm& term, const MotionView&) const override {
         return term.at("time_constant") > 0.05 ? "no drive answers that late" : "";

@@ -64,6 +64,11 @@ class TorqueSaturation : public Effect {
         return motion.torque_measured ? "the torque was measured: behind any limit" : "";
     }
     bool delivers() const override { return true; }
+    // What is clipped has no noise left.
+    double noise_passed(const EffectTerm& term, const TorqueSignal& asked, double) const override {
+        const auto free = (asked.samples.array().abs() < term.at("limit")).count();
+        return std::sqrt(double(std::max<Eigen::Index>(1, free)) / double(asked.samples.size()));
+    }
     std::vector<std::string> shape_keys(const EffectTerm&) const override { return {"limit"}; }
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
