@@ -88,7 +88,7 @@ double noise_passed(const Model& model, const std::vector<PreparedMotion>& motio
     for (const PreparedMotion& m : motions) {
         double share = 1;
         for (const EffectTerm& term : model.effects)
-            share *= effect_of(term).noise_passed(term, m.asked, m.band_Hz);
+            share *= effect_of(term).noise_passed(term, m.asked, m.motion);
         power += share * share * double(m.used_count()), all += double(m.used_count());
     }
     return std::sqrt(power / all);

@@ -20,9 +20,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kMostContexts = 12;       // of a law that depends on the torque
-constexpr double kLeastDelivered = 0.3; // of the asked torque, in norm
-constexpr double kTakesWork = 0.02;     // of the power's size: the torque drives the axis
+constexpr int kMostContexts = 12;        // of a law that depends on the torque
+constexpr double kLeastDelivered = 0.03; // of the asked torque, in norm
+constexpr double kTakesWork = 0.02;      // of the power's size: the torque drives the axis
 
 // One evaluation: the model's shapes as they are, the coefficients solved for.
 struct State {

@@ -19,8 +19,10 @@ constexpr int kMostRounds = 4;
 constexpr size_t kMostPolished = 6;
 constexpr double kChanges = 0.9;      // error after over before
 constexpr double kLittleTorque = 0.7; // of what was asked arrives; the error is a share of that
-constexpr double kAnyVariation = 0.3; // of the torque about its mean arrives at least
+constexpr double kAnyVariation = 0.1; // of the torque about its mean arrives at least
+constexpr double kHardlyAny = 0.03;   // of the inertia before
 constexpr double kAnyway = 0.5;       // error after over before: it explains what arrives
+constexpr double kGivesWay = 0.9;     // held-out error after over before
 constexpr double kWorthPolishing = 2; // times the least held-out error
 
 // A gain of the torque is taken up by inertia and friction together: never a finding unless one of
@@ -63,6 +65,14 @@ bool far_less_torque(const Candidate& c, const FitResult& before) {
     return !explains && c.fit.torque.norm() < kLittleTorque * before.torque.norm();
 }
 
+// Far below its antiresonance a load shows one number, how far it gives way, and neither frequency.
+bool only_gives_way(const Candidate& c, const FitResult& before, Assembler& assembler) {
+    if (c.effect != "elastic_load") return false;
+    const EffectTerm& load = c.fit.model.effects.back();
+    return load.at("resonance_frequency") > load.at("antiresonance_frequency") &&
+           c.validation_error_after < kGivesWay * held_out_error(before, assembler);
+}
+
 // What keeps a fitted candidate from being an answer, or "".
 std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& before,
                      const Assembler& assembler) {
@@ -78,6 +88,7 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
         if (why = effect.implausible(c.fit.model.effects.back(), view); why.empty()) break;
     if (!why.empty()) out = why;
     if (far_less_torque(c, before)) out = "far less torque than moved the axis";
+    if (c.fit.model.inertia < kHardlyAny * before.model.inertia) out = "it leaves no inertia";
     if (is_harmonic(c, assembler.motions()))
         out = "a harmonic of the repeated move: another period shows it";
     if (c.error_after >= before.torque_error) out = "it does not help";
@@ -108,6 +119,10 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before, Assem
     c.parameters.erase(c.parameters.begin(), c.parameters.end() - long(own));
     c.note = fault_of(c, effect, before, assembler);
     c.sound = c.note.empty();
+    if (!c.sound && c.error_after < before.torque_error && only_gives_way(c, before, assembler)) {
+        c.sound = true;
+        c.note = "how far it gives way shows, its frequencies do not: move up to them";
+    }
     if (!c.fit.converged && c.sound) c.note = "the fit met its bound on iterations";
 }
 

@@ -14,6 +14,8 @@ namespace servoid {
 
 namespace {
 
+constexpr double kAsGood = 1.15; // held-out error over the candidate's
+
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     void take(const Eigen::VectorXd& x) {
@@ -74,7 +76,9 @@ std::optional<Outside> compare_with(const EffectTerm& term, const Eigen::VectorX
     try {
         assembler.set_artifact(artifact);
         const FitResult rival = fit(model, assembler, going_on_from(d.before));
-        return Outside{term.law, gain_z(candidate.blocks_after, held_out_blocks(rival, assembler))};
+        const std::vector<double> blocks = held_out_blocks(rival, assembler);
+        if (error_of(blocks) > kAsGood * candidate.validation_error_after) return std::nullopt;
+        return Outside{term.law, gain_z(candidate.blocks_after, blocks)};
     } catch (const Refusal&) {
         return std::nullopt;
     }

@@ -18,6 +18,7 @@ constexpr double kBeyondNoiseUntold = 0.8; // where no reference was recorded
 constexpr double kFollows = 0.4;           // of a linear dynamics' gain must follow the reference
 constexpr double kAsked = 0.02;            // probability from which a gain is compared with noise's
 constexpr double kMuchTheSame = 1.1;       // in error
+constexpr double kSameAsRich = 1.3;        // of the same but for instants near rest
 constexpr double kPerBound = 4;            // price, as a logarithm
 constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise does that
 
@@ -41,10 +42,12 @@ bool is_simpler(const std::string& simple, const std::string& rich) {
 
 void prefer_simple_names(const Diagnosis& d, std::vector<double>& evidence) {
     for (size_t rich = 0; rich < d.candidates.size(); ++rich) {
+        const std::string& rich_name = d.candidates[rich].effect;
         for (size_t simple = 0; simple < d.candidates.size(); ++simple) {
             const Candidate& c = d.candidates[simple];
-            if (!c.sound || !is_simpler(c.effect, d.candidates[rich].effect)) continue;
-            if (c.validation_error_after < 1.1 * d.candidates[rich].validation_error_after)
+            if (!c.sound || !is_simpler(c.effect, rich_name)) continue;
+            const double most = rich_name == "coulomb_asymmetric" ? kSameAsRich : kMuchTheSame;
+            if (c.validation_error_after < most * d.candidates[rich].validation_error_after)
                 evidence[rich] = std::min(evidence[rich], evidence[simple] - 4);
         }
     }

@@ -173,10 +173,12 @@ class Effect {
     // Changes the asked torque into what reaches the motor (lag, dead time, saturation).
     virtual void deliver(const EffectTerm&, TorqueSignal&) const {}
     virtual bool delivers() const { return false; }
-    // The share of the noise of the asked torque, in amplitude, that it lets through in the band
-    // [0, band_Hz]: what smooths or clips the torque takes noise away, and that is no merit (the
-    // geometric mean over frequencies or samples: the Jacobian of a transformed response).
-    virtual double noise_passed(const EffectTerm&, const TorqueSignal&, double) const { return 1; }
+    // The share of the noise of the recorded torque, in amplitude, that it lets through in the
+    // band: what smooths or clips the torque takes noise away, and that is no merit (the geometric
+    // mean over frequencies or samples: the Jacobian of a transformed response).
+    virtual double noise_passed(const EffectTerm&, const TorqueSignal&, const MotionView&) const {
+        return 1;
+    }
 
     // Whether the columns depend on the torque.
     virtual bool uses_torque(const EffectTerm&) const { return false; }

@@ -60,11 +60,11 @@ class TorqueLag : public Effect {
     }
 
     bool delivers() const override { return true; }
-    // exp(mean over f of ln|1/(1 + 2πjfτ)|)
+    // exp(mean over f of ln|1/(1 + 2πjfτ)|). A torque reference is a number without noise.
     double noise_passed(const EffectTerm& term, const TorqueSignal&,
-                        double band_Hz) const override {
-        const double x = 2 * std::numbers::pi * band_Hz * term.at("time_constant");
-        if (!(x > 1e-6)) return 1;
+                        const MotionView& motion) const override {
+        const double x = 2 * std::numbers::pi * motion.band_Hz * term.at("time_constant");
+        if (!motion.torque_measured || !(x > 1e-6)) return 1;
         return std::exp(1 - std::log1p(x * x) / 2 - std::atan(x) / x);
     }
     // A slow one smooths the noise of the torque instead, and looks better for it.

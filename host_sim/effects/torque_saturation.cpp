@@ -64,8 +64,9 @@ class TorqueSaturation : public Effect {
         return motion.torque_measured ? "the torque was measured: behind any limit" : "";
     }
     bool delivers() const override { return true; }
-    // What is clipped has no noise left.
-    double noise_passed(const EffectTerm& term, const TorqueSignal& asked, double) const override {
+    // What is clipped tells nothing any more, noise or not.
+    double noise_passed(const EffectTerm& term, const TorqueSignal& asked,
+                        const MotionView&) const override {
         const auto free = (asked.samples.array().abs() < term.at("limit")).count();
         return std::sqrt(double(std::max<Eigen::Index>(1, free)) / double(asked.samples.size()));
     }
@@ -73,7 +74,7 @@ class TorqueSaturation : public Effect {
     std::vector<EffectTerm> starts(const Search& search) const override {
         std::vector<EffectTerm> out;
         const double top = search.torque.cwiseAbs().maxCoeff();
-        for (double share : {0.95, 0.85, 0.7, 0.5}) {
+        for (double share : {0.95, 0.85, 0.7, 0.5, 0.25}) {
             EffectTerm term = blank();
             term.parameters["limit"] = share * top;
             out.push_back(term);

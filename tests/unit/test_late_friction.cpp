@@ -29,3 +29,18 @@ TEST(Sanity, PreslidingIsNoShiftedTime) {
     expect_believed(with_bristles("0.1", "1.5"),
                     "sine:frequency_Hz=2,amplitude=1,periods=5,torque_noise=1e-3");
 }
+
+TEST(Sanity, BristlesThatBendATenthOfTheTravelAreNoShiftedTime) {
+    for (const char* move : {"sine:frequency_Hz=2,amplitude=1,periods=5,torque_noise=1e-3",
+                             "trapezoid:stroke=2,velocity=8,acceleration=100,cycles=3,"
+                             "torque_noise=1e-3"})
+        expect_believed(with_bristles("0.06", "0.3"), move);
+}
+
+TEST(Sanity, SmoothDragIsNoShiftedTime) {
+    const char* sine = "sine:frequency_Hz=3,amplitude=3,periods=4,torque_noise=2e-3";
+    expect_believed(drive("[effects.quadratic_drag]\ncoefficient = 1.2e-4\n"), sine);
+    expect_believed(drive("[effects.custom.x]\nlaw = \"k*v^3\"\n[effects.custom.x.parameters]\n"
+                          "k = 1e-6\n"),
+                    sine);
+}
