@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 using namespace servoid;
@@ -62,4 +63,27 @@ TEST(Rivals, ALimitThatCutsMostOfTheTorqueIsNamed) {
     EXPECT_EQ(d.verdict, Verdict::missing) << d.advice;
     EXPECT_EQ(first.effect, "torque_saturation");
     EXPECT_LT(first.fit.torque.norm(), 0.7 * d.before.torque.norm());
+}
+
+// Far below its antiresonance a load is one number, (1 − (fa/fr)²)/fa²: neither frequency is known,
+// and all the same it is no gap.
+TEST(Rivals, ALoadFarBelowItsAntiresonanceIsNamed) {
+    const Recorded r(
+        bare_drive("[effects.elastic_load]\nantiresonance_frequency = 400\n"
+                   "resonance_frequency = 630\nantiresonance_damping = 0.05\n"
+                   "resonance_damping = 0.05\n"),
+        "multisine:from_Hz=2,to_Hz=60,step_Hz=2,amplitude=0.5,periods=4,torque_noise=2e-3");
+    const Diagnosis d = diagnose(bare_drive(), r.motions);
+    const Candidate& first = d.candidates[0];
+    EXPECT_EQ(d.verdict, Verdict::missing) << d.advice;
+    ASSERT_EQ(first.effect, "elastic_load");
+    const EffectTerm& load = first.fit.model.effects.back();
+    const double antiresonance = load.at("antiresonance_frequency");
+    const double resonance = load.at("resonance_frequency");
+    const double gives =
+        (1 - std::pow(antiresonance / resonance, 2)) / (antiresonance * antiresonance);
+    const double truth = (1 - std::pow(400.0 / 630, 2)) / (400.0 * 400);
+    std::printf("figure: %.4g and %.4g Hz, gives way by %.3f of the truth; %s\n", antiresonance,
+                resonance, gives / truth, first.note.c_str());
+    EXPECT_NEAR(gives / truth, 1, 0.1);
 }
