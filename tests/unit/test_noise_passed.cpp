@@ -81,13 +81,14 @@ TEST(NoisePassed, NoiseOfAMeasuredTorqueIsNoLag) {
 // A limit at the Coulomb torque, and no inertia: what arrives is sgn v, and all explained.
 TEST(NoisePassed, AStiffeningSpringIsNoLimit) {
     const std::string law =
-        "[effects.custom.x]\nlaw = \"k*theta^3\"\n[effects.custom.x.parameters]\nk = 1e-3\n";
-    for (const unsigned long seed : {1, 3}) {
-        const Recorded r(
-            drive(law), "trapezoid:stroke=2,velocity=8,acceleration=100,cycles=3,torque_noise=2e-3",
-            seed);
+        "[effects.custom.x]\nlaw = \"k*theta^3\"\n[effects.custom.x.parameters]\nk = ";
+    for (const auto& [k, move] :
+         {std::pair{"1e-3", "trapezoid:stroke=2,velocity=8,acceleration=100,cycles=3,"
+                            "torque_noise=2e-3"},
+          {"4e-3", "sine:frequency_Hz=3,amplitude=2,periods=4,torque_noise=2e-3"}}) {
+        const Recorded r(drive(law + k + "\n"), move, 1);
         const Diagnosis d = diagnose(drive(), r.motions);
-        std::printf("figure: seed %lu: %s, %s, inertia %.3g kg·m²\n", seed, verdict_name(d.verdict),
+        std::printf("figure: k %s: %s, %s, inertia %.3g kg·m²\n", k, verdict_name(d.verdict),
                     d.candidates[0].effect.c_str(), inertia_of(d));
         EXPECT_NE(d.verdict, Verdict::missing) << d.advice;
         EXPECT_NE(d.candidates[0].effect, "torque_saturation");
