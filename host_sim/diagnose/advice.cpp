@@ -91,6 +91,10 @@ std::string advice_for(const Diagnosis& d) {
                            "explains {:.0f} % of what is left",
                            d.probes[0].name, 100 * d.probes[0].explained);
     case Verdict::adequate:
+        if (d.error_before > 3 * d.noise_floor && !d.floor_from_repetition)
+            return "the residual depends on nothing that was recorded, as noise does; the same "
+                   "move "
+                   "three times would tell how much of it is noise";
         return "the residual is noise: nothing more can be learnt from it";
     case Verdict::insufficient:
         break;

@@ -51,6 +51,7 @@ class Stribeck : public Effect {
         const double vs = term.at("velocity");
         if (vs > 0.5 * motion.top_speed())
             return "it only bends the viscous line: the speed is above half the top speed";
+        if (vs < 2 * motion.velocity_noise) return "it decays within the noise of the velocity";
         const auto slow = (motion.velocity.array().abs() < vs).count();
         return double(slow) < kFewestRows * double(motion.size()) ? "too few rows are that slow"
                                                                   : "";

@@ -108,6 +108,7 @@ links() { # DOCUMENT: what [text](file) and ![text](file) point at
     done
 }
 
+cd "$source_dir" # the folders' documents are looked for from here
 for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/*/README.md; do
     cd "$source_dir"
     [ -f "$document" ] || continue
