@@ -1,5 +1,6 @@
 #include "cli/app.hpp"
 
+#include "can/bus_log.hpp"
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "servoid/sid_version.h"
@@ -65,20 +66,43 @@ void add_examples(CLI::App& verb, const std::string& examples) {
     verb.footer("Examples:\n" + examples);
 }
 
+namespace {
+
+// Each stretch of a candump log without a gap is a capture of its own.
+std::vector<Capture> read_log(const std::string& path, const std::string& map,
+                              const CaptureScales& scales) {
+    const can::FrameMap frames =
+        map.empty() ? can::map_of_cia402(1, 1, can::default_objects()) : can::read_frame_map(map);
+    return can::read_candump(path, frames, scales).captures;
+}
+
+std::vector<Capture> read_table(const std::string& path, const std::string& map,
+                                const CaptureScales& scales) {
+    std::optional<SignalMap> columns;
+    if (!map.empty()) columns = read_signal_map(map);
+    return {read_capture(path, scales, columns ? &*columns : nullptr)};
+}
+
+void refuse_other_motion(const Capture& capture, const Model& model, const std::string& path) {
+    if (capture.linear == (model.motion == Motion::linear)) return;
+    throw FileError(path, 0,
+                    capture.linear
+                        ? "a linear axis (m, N), but the model's motion is \"rotary\""
+                        : "a rotary axis (rad, N·m), but the model's motion is \"linear\"");
+}
+
+} // namespace
+
 std::vector<Capture> CaptureOptions::read_files(const std::vector<std::string>& paths,
                                                 const Model* model) const {
     const CaptureScales scales = model ? scales_of(*model) : CaptureScales{};
-    std::optional<SignalMap> signal_map;
-    if (!map.empty()) signal_map = read_signal_map(map);
     std::vector<Capture> out;
-    for (const std::string& path : paths) {
-        out.push_back(read_capture(path, scales, signal_map ? &*signal_map : nullptr));
-        if (model && out.back().linear != (model->motion == Motion::linear))
-            throw FileError(path, 0,
-                            out.back().linear
-                                ? "a linear axis (m, N), but the model's motion is \"rotary\""
-                                : "a rotary axis (rad, N·m), but the model's motion is \"linear\"");
-    }
+    for (const std::string& path : paths)
+        for (Capture& capture : path.ends_with(".log") ? read_log(path, map, scales)
+                                                       : read_table(path, map, scales)) {
+            if (model) refuse_other_motion(capture, *model, path);
+            out.push_back(std::move(capture));
+        }
     return out;
 }
 
@@ -101,7 +125,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("Every verb has --help with examples.");
     for (auto add : {add_simulate, add_identify, add_sweep, add_friction, add_compare, add_add,
-                     add_effects, add_diagnose, add_refine, add_reveal})
+                     add_effects, add_diagnose, add_refine, add_reveal, add_replay})
         add(app);
     try {
         app.parse(argc, argv);

@@ -66,6 +66,7 @@ void add_effects(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_refine(CLI::App& app);
 void add_reveal(CLI::App& app);
+void add_replay(CLI::App& app);
 
 // Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
 int run(int argc, char** argv);

@@ -1,4 +1,5 @@
 // servoid simulate: a capture of the simulated drive.
+#include "can/bus_log.hpp"
 #include "cli/app.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -42,11 +43,10 @@ void say_what_to_do(const Options& o) {
 }
 
 void run_simulate(const Options& o) {
-    if (o.out.ends_with(".log"))
-        throw UsageError("--out: candump logs are not written yet; expected a .csv file or -");
     const Model model = read_model(o.model);
     const Capture capture = make_capture(o, model);
-    write_file(o.out, format_capture_csv(capture));
+    write_file(o.out, o.out.ends_with(".log") ? can::format_candump_log(capture, scales_of(model))
+                                              : format_capture_csv(capture));
     Json json = {{"schema", "servoid.simulate/1"},
                  {"out", o.out},
                  {"samples", capture.rows()},
@@ -74,7 +74,7 @@ void add_simulate(CLI::App& app) {
     verb->add_option("--mystery", o->mystery,
                      "hide one effect that the model lacks; this seed chooses it (servoid reveal "
                      "tells)");
-    verb->add_option("--out", o->out, "capture file (.csv), - for stdout")->required();
+    verb->add_option("--out", o->out, "capture file (.csv, or .log as candump writes it), - for stdout")->required();
     add_output_options(*verb, o->output);
     add_examples(
         *verb, "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"

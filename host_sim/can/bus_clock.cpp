@@ -1,0 +1,122 @@
+#include "can/bus_clock.hpp"
+
+#include "common/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid::can {
+
+namespace {
+
+constexpr std::size_t kFewest = 8;
+constexpr std::size_t kAhead = 6; // arrivals that must agree on a lost or a repeated frame
+constexpr double kFollow = 0.02;  // of a delay that the start follows: drift of either clock
+
+double median_step(const std::vector<double>& arrivals) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < arrivals.size(); ++i)
+        steps.push_back(arrivals[i] - arrivals[i - 1]);
+    const auto middle = steps.begin() + long(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
+// The least delay of arrival i and the next few, were none of them lost or repeated.
+double lasting_delay(const std::vector<double>& arrivals, std::size_t i, double expected_s,
+                     double period_s) {
+    double least = INFINITY;
+    const std::size_t end = std::min(arrivals.size(), i + kAhead);
+    for (std::size_t j = i; j < end; ++j)
+        least = std::min(least, arrivals[j] - expected_s - double(j - i) * period_s);
+    return least;
+}
+
+void number(const std::vector<double>& arrivals, FittedClock& clock) {
+    clock.cycle.assign(arrivals.size(), 0);
+    double start = clock.start_s;
+    long next = 0;
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        const double expected = start + double(next) * clock.period_s;
+        const double delay = lasting_delay(arrivals, i, expected, clock.period_s);
+        const long missed = std::lround(delay / clock.period_s);
+        // The last few have nobody to agree with: what is late there is late.
+        const bool told = i + kAhead <= arrivals.size();
+        next += missed > 0 || told ? std::max(missed, next > 0 ? -1L : 0L) : 0;
+        clock.cycle[i] = next++;
+        start += kFollow * (delay - double(missed) * clock.period_s);
+    }
+}
+
+// The straight line through arrivals over cycles.
+void fit_line(const std::vector<double>& arrivals, FittedClock& clock, bool stated) {
+    const double n = double(arrivals.size());
+    double k = 0, t = 0, kk = 0, kt = 0;
+    for (std::size_t i = 0; i < arrivals.size(); ++i)
+        k += double(clock.cycle[i]) / n, t += (arrivals[i] - arrivals[0]) / n;
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        const double dk = double(clock.cycle[i]) - k, dt = arrivals[i] - arrivals[0] - t;
+        kk += dk * dk, kt += dk * dt;
+    }
+    if (!stated && kk > 0) clock.period_s = kt / kk;
+    clock.start_s = arrivals[0] + t - k * clock.period_s;
+}
+
+void judge_arrivals(const std::vector<double>& arrivals, FittedClock& clock) {
+    double square = 0;
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        const double late = arrivals[i] - clock.start_s - double(clock.cycle[i]) * clock.period_s;
+        square += late * late;
+        clock.latest_s = std::max(clock.latest_s, late);
+    }
+    clock.jitter_s = std::sqrt(square / double(arrivals.size()));
+}
+
+} // namespace
+
+FittedClock fit_clock(const std::vector<double>& arrivals, std::optional<double> period_s) {
+    if (arrivals.size() < kFewest)
+        throw Refusal("fewer than 8 frames hold what is asked for", "more cycles of the move");
+    FittedClock out;
+    out.period_s = period_s.value_or(median_step(arrivals));
+    if (!(out.period_s > 0))
+        throw Refusal("most frames carry the same time",
+                      "a log whose times are finer than the cycle, or map a counter");
+    out.start_s = arrivals[0];
+    for (int pass = 0; pass < 3; ++pass) {
+        number(arrivals, out);
+        fit_line(arrivals, out, period_s.has_value());
+    }
+    judge_arrivals(arrivals, out);
+    return out;
+}
+
+FittedClock line_through(const std::vector<double>& arrivals, const std::vector<long>& cycle) {
+    if (arrivals.size() < kFewest)
+        throw Refusal("fewer than 8 frames hold what is asked for", "more cycles of the move");
+    FittedClock out;
+    out.cycle = cycle;
+    fit_line(arrivals, out, false);
+    judge_arrivals(arrivals, out);
+    return out;
+}
+
+std::vector<long> unrolled(const std::vector<std::int64_t>& counts, int bits) {
+    std::vector<long> out;
+    const std::int64_t range = bits < 63 ? std::int64_t{1} << bits : 0;
+    long high = 0; // of the furthest so far
+    for (std::int64_t count : counts) {
+        if (out.empty() || range == 0) {
+            out.push_back(long(count));
+        } else {
+            std::int64_t step = (count - high) % range;
+            if (step < 0) step += range;
+            if (step >= range / 2) step -= range;
+            out.push_back(high + long(step));
+        }
+        high = out.size() == 1 ? out.back() : std::max(high, out.back());
+    }
+    return out;
+}
+
+} // namespace servoid::can

@@ -1,0 +1,100 @@
+#include "can/bus_log.hpp"
+
+#include "can/candump.hpp"
+#include "capture/assemble.hpp"
+#include "capture/csv_reader.hpp" // check_columns
+#include "common/error.hpp"
+#include "common/file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace servoid::can {
+
+namespace {
+
+constexpr std::uint32_t kSync = 0x80, kTpdo = 0x181;
+constexpr std::int64_t kEnabled = 0x0237; // status word: operation enabled
+constexpr std::int64_t kAnswer_ns = 40000; // a TPDO after its SYNC: its own length on the bus
+
+bool is_mapped(const FrameMap& map, const Frame& frame) {
+    for (const MappedSignal& s : map.signals)
+        if (s.field.frame == id_of(frame)) return true;
+    return false;
+}
+
+void collect(CandumpReader& reader, const FrameMap& map, const std::string& path, BusTable& table) {
+    int chosen = -1; // the interface
+    for (Frame frame; reader.next(frame);) {
+        const std::string& name = reader.interfaces()[frame.interface];
+        if (!map.interface.empty() && name != map.interface) continue;
+        if (is_mapped(map, frame)) {
+            if (chosen < 0) chosen = frame.interface;
+            if (chosen != frame.interface)
+                throw FileError(path, reader.line(),
+                                fmt::format("frame {} comes from {} and from {}; name one of them "
+                                            "as `interface` in [bus] of the map",
+                                            to_text(id_of(frame)),
+                                            reader.interfaces()[std::size_t(chosen)], name));
+        }
+        table.add(frame);
+    }
+}
+
+std::int64_t rounded(double value, double least, double most, const char* what) {
+    const double r = std::round(value);
+    if (r < least || r > most)
+        throw UsageError(fmt::format("--out: {} of {:.6g} does not fit its object", what, value));
+    return std::int64_t(r);
+}
+
+void put(std::int64_t raw, int first_byte, int bytes, Frame& frame) {
+    for (int i = 0; i < bytes; ++i)
+        frame.data[std::size_t(first_byte + i)] = std::uint8_t(std::uint64_t(raw) >> (8 * i));
+}
+
+} // namespace
+
+BusCaptures read_candump(const std::string& path, const FrameMap& map,
+                         const CaptureScales& scales) {
+    const std::string text = read_file(path);
+    CandumpReader reader(text, path);
+    BusTable table(map);
+    collect(reader, map, path, table);
+    BusCaptures out;
+    for (RawTable& rows : table.tables(path, out.report)) {
+        check_columns(rows);
+        out.captures.push_back(assemble(std::move(rows), scales));
+    }
+    return out;
+}
+
+std::string format_candump_log(const Capture& capture, const CaptureScales& scales) {
+    if (!(scales.rated_torque > 0) || !(scales.position_per_count > 0))
+        throw UsageError("--out: a candump log holds counts and per mille of rated torque; add "
+                         "[sensor] and drive.rated_torque to the model");
+    std::string out;
+    for (std::size_t i = 0; i < capture.rows(); ++i) {
+        Frame sync;
+        sync.id = kSync;
+        sync.time_ns = std::llround(capture.time_s[i] * 1e9);
+        Frame tpdo;
+        tpdo.id = kTpdo, tpdo.length = 8, tpdo.time_ns = sync.time_ns + kAnswer_ns;
+        put(kEnabled, 0, 2, tpdo);
+        put(rounded(capture.position[i] / scales.position_per_count,
+                    std::numeric_limits<std::int32_t>::min(),
+                    std::numeric_limits<std::int32_t>::max(), "a position"),
+            2, 4, tpdo);
+        put(rounded(1000 * capture.torque_ref[i] / scales.rated_torque,
+                    std::numeric_limits<std::int16_t>::min(),
+                    std::numeric_limits<std::int16_t>::max(), "a torque"),
+            6, 2, tpdo);
+        for (const Frame* frame : {&sync, &tpdo})
+            out += format_candump(*frame, "can0") + "\n";
+    }
+    return out;
+}
+
+} // namespace servoid::can

@@ -1,0 +1,238 @@
+#include "can/bus_table.hpp"
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace servoid::can {
+
+namespace {
+
+constexpr long kShortest = 16; // rows of a table
+
+bool holds(const std::optional<Field>& field, FrameId id) { return field && field->frame == id; }
+
+// A second frame of a cycle whose forerunner is missing is that one, come late.
+long pull_back_late(std::vector<long>& cycle) {
+    long late = 0;
+    for (std::size_t i = 0; i + 1 < cycle.size(); ++i) {
+        const bool free = i == 0 || cycle[i - 1] < cycle[i] - 1;
+        if (cycle[i] == cycle[i + 1] && free) --cycle[i], ++late;
+    }
+    return late;
+}
+
+std::vector<long> device_cycles(const std::vector<std::int64_t>& ticks, const Field& field,
+                                double& period_s) {
+    const std::vector<long> rolled = unrolled(ticks, field.length);
+    std::vector<double> time_s;
+    for (long tick : rolled)
+        time_s.push_back(double(tick - rolled.front()) * field.scale);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time_s.size(); ++i)
+        steps.push_back(time_s[i] - time_s[i - 1]);
+    std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
+    const double step = steps[steps.size() / 2];
+    if (!(step > 0))
+        throw Refusal("the device time stands still", "a map whose [bus.time] is the drive's clock");
+    std::vector<long> cycle;
+    for (double t : time_s)
+        cycle.push_back(std::lround(t / step));
+    // The mean step: a median of rounded ticks is off by some of one.
+    period_s = cycle.back() > 0 ? time_s.back() / double(cycle.back()) : step;
+    return cycle;
+}
+
+} // namespace
+
+BusTable::BusTable(FrameMap map) : map_(std::move(map)) {
+    const auto list = [&](FrameId id) -> Arrivals& {
+        if (Arrivals* known = find(id)) return *known;
+        arrivals_.emplace_back();
+        arrivals_.back().id = id;
+        return arrivals_.back();
+    };
+    for (std::size_t i = 0; i < map_.signals.size(); ++i)
+        list(map_.signals[i].field.frame).signals.push_back(i);
+    if (map_.counter) list(map_.counter->frame);
+    if (map_.device_time) list(map_.device_time->frame);
+    for (Arrivals& a : arrivals_)
+        a.values.resize(a.signals.size());
+}
+
+BusTable::Arrivals* BusTable::find(FrameId id) {
+    for (Arrivals& a : arrivals_)
+        if (a.id == id) return &a;
+    return nullptr;
+}
+
+void BusTable::add(const Frame& frame) {
+    if (frames_++ == 0) first_ns_ = frame.time_ns;
+    if (frame.error) ++errors_;
+    if (frame.error || frame.remote) return;
+    const double time_s = double(frame.time_ns - first_ns_) * 1e-9;
+    const FrameId id = id_of(frame);
+    if (map_.sync && *map_.sync == id) sync_s_.push_back(time_s);
+    Arrivals* a = find(id);
+    if (!a) return;
+    int needed = 0;
+    for (std::size_t i : a->signals)
+        needed = std::max(needed, bytes_needed(map_.signals[i].field));
+    for (const auto* field : {&map_.counter, &map_.device_time})
+        if (holds(*field, id)) needed = std::max(needed, bytes_needed(**field));
+    if (frame.length < needed) {
+        ++short_;
+        return;
+    }
+    a->time_s.push_back(time_s);
+    a->before.push_back(long(sync_s_.size()));
+    if (holds(map_.counter, id)) a->counts.push_back(raw_of(*map_.counter, frame));
+    if (holds(map_.device_time, id)) a->ticks.push_back(raw_of(*map_.device_time, frame));
+    for (std::size_t i = 0; i < a->signals.size(); ++i)
+        a->values[i].push_back(value_of(map_.signals[a->signals[i]].field, frame));
+}
+
+// Data follow the SYNC of their cycle.
+BusTable::Cycles BusTable::cycles_by_sync(BusReport& report) const {
+    const FittedClock clock = fit_clock(sync_s_, map_.period_s);
+    Cycles out(arrivals_.size());
+    for (std::size_t a = 0; a < arrivals_.size(); ++a) {
+        for (long n : arrivals_[a].before)
+            out[a].push_back(n > 0 ? clock.cycle[std::size_t(n - 1)] : -1);
+        report.late += pull_back_late(out[a]);
+    }
+    report.clock = "SYNC", report.period_s = clock.period_s, report.jitter_s = clock.jitter_s;
+    return out;
+}
+
+// The clock of one identifier: what it carries itself, or when it arrives.
+FittedClock BusTable::clock_of(const Arrivals& a, BusReport& report) const {
+    if (!a.counts.empty()) {
+        report.clock = "counter";
+        return line_through(a.time_s, unrolled(a.counts, map_.counter->length));
+    }
+    if (a.ticks.empty()) {
+        report.clock = "arrival";
+        return fit_clock(a.time_s, map_.period_s);
+    }
+    report.clock = "device time";
+    double period_s = 0;
+    const std::vector<long> cycle = device_cycles(a.ticks, *map_.device_time, period_s);
+    FittedClock out = line_through(a.time_s, cycle);
+    report.period_s = period_s; // of the drive's clock, not of the log's
+    return out;
+}
+
+// The number of the cycle of each arrival, for each identifier.
+BusTable::Cycles BusTable::cycles(BusReport& report) const {
+    if (map_.sync) return cycles_by_sync(report);
+    std::size_t leader = 0; // by whose cycles the others are counted
+    for (std::size_t a = 0; a < arrivals_.size(); ++a)
+        if (!arrivals_[a].counts.empty() || !arrivals_[a].ticks.empty()) leader = a;
+    const FittedClock base = clock_of(arrivals_[leader], report);
+    if (!(report.period_s > 0)) report.period_s = map_.period_s.value_or(base.period_s);
+    report.jitter_s = base.jitter_s;
+    Cycles out(arrivals_.size());
+    for (std::size_t a = 0; a < arrivals_.size(); ++a) {
+        const auto& time_s = arrivals_[a].time_s;
+        const FittedClock own = a == leader ? base : fit_clock(time_s, base.period_s);
+        const long ahead = std::lround((own.start_s - base.start_s) / base.period_s);
+        for (std::size_t i = 0; i < time_s.size(); ++i) {
+            out[a].push_back(own.cycle[i] + ahead);
+            report.late += time_s[i] - own.start_s - double(own.cycle[i]) * base.period_s >
+                           base.period_s / 2;
+        }
+    }
+    return out;
+}
+
+// Which arrival of each identifier stands in which cycle.
+BusTable::Placed BusTable::place(BusReport& report) const {
+    const auto cycle = cycles(report);
+    Placed out;
+    out.at.resize(arrivals_.size());
+    for (std::size_t a = 0; a < arrivals_.size(); ++a) {
+        auto& at = out.at[a];
+        for (std::size_t i = 0; i < cycle[a].size(); ++i) {
+            const long k = cycle[a][i];
+            if (k < 0 && map_.sync) continue; // before the first SYNC
+            const bool overtaken = !at.empty() && k < at.rbegin()->first;
+            if (!at.emplace(k, i).second)
+                ++report.repeated;
+            else if (overtaken)
+                ++report.reordered;
+        }
+        if (at.empty()) continue;
+        out.first = a == 0 ? at.begin()->first : std::max(out.first, at.begin()->first);
+        out.last = a == 0 ? at.rbegin()->first : std::min(out.last, at.rbegin()->first);
+    }
+    return out;
+}
+
+// The cycles from `first` on, up to `end`, as rows.
+RawTable BusTable::table_of(const Placed& placed, long first, long end, double period_s) const {
+    RawTable table;
+    table.metadata_path = map_.path;
+    for (const auto& [key, value] : map_.metadata)
+        table.metadata[key] = {value, 0};
+    RawColumn time{"time_s", *find_column("time_s"), {}, printed_as_double};
+    for (long k = first; k < end; ++k)
+        time.values.push_back(double(k - first) * period_s);
+    table.columns.push_back(std::move(time));
+    for (std::size_t a = 0; a < arrivals_.size(); ++a)
+        for (std::size_t s = 0; s < arrivals_[a].signals.size(); ++s) {
+            const MappedSignal& signal = map_.signals[arrivals_[a].signals[s]];
+            const bool plain = signal.field.scale == 1 && signal.field.offset == 0;
+            RawColumn column{signal.name, signal.meaning, {},
+                             plain ? printed_as_integer : printed_as_double};
+            for (long k = first; k < end; ++k)
+                column.values.push_back(arrivals_[a].values[s][placed.at[a].at(k)]);
+            table.columns.push_back(std::move(column));
+        }
+    return table;
+}
+
+void BusTable::refuse_if_missing(const std::string& path) const {
+    for (const Arrivals& a : arrivals_)
+        if (a.time_s.empty())
+            throw FileError(path, 0,
+                            fmt::format("no frame {} {}", to_text(a.id),
+                                        short_ ? "is long enough for the map" : "is in the log"));
+    if (map_.sync && sync_s_.empty())
+        throw FileError(path, 0, "no SYNC frame " + to_text(*map_.sync) + " is in the log");
+}
+
+std::vector<RawTable> BusTable::tables(const std::string& path, BusReport& report) const {
+    report = {};
+    report.frames = frames_, report.errors = errors_, report.short_frames = short_;
+    refuse_if_missing(path);
+    const Placed placed = place(report);
+    const auto whole = [&](long k) {
+        return k <= placed.last &&
+               std::all_of(placed.at.begin(), placed.at.end(),
+                           [&](const auto& frames) { return frames.contains(k); });
+    };
+    std::vector<RawTable> out;
+    for (long k = placed.first; k <= placed.last; ++k) {
+        long end = k;
+        while (whole(end))
+            ++end;
+        if (end - k >= kShortest) {
+            out.push_back(table_of(placed, k, end, report.period_s));
+            out.back().path = path;
+            report.used += (end - k) * long(arrivals_.size());
+        }
+        if (end <= placed.last) ++report.lost;
+        k = end;
+    }
+    if (out.empty())
+        throw Refusal(fmt::format("{}: no {} cycles in a row hold every signal", path, kShortest),
+                      "a log of a bus that loses less");
+    return out;
+}
+
+} // namespace servoid::can

@@ -1,0 +1,99 @@
+// A candump log through the program: the same inertia as the CSV of the same run.
+#include "cli/run_program.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+using namespace servoid::cli_test;
+
+namespace {
+
+const std::string sine = "sine:frequency_Hz=50,periods=20,amplitude=0.5";
+
+double inertia_of(const Ended& ended) {
+    return json_of(ended).at("inertia").at("value").get<double>();
+}
+
+std::string write(const Folder& folder, const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return folder / name;
+}
+
+} // namespace
+
+TEST(Replay, GivesTheInertiaOfTheCsv) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string csv = simulated(folder, model, sine, "a.csv");
+    const std::string log = simulated(folder, model, sine, "a.log");
+    const double of_csv = inertia_of(run({"identify", csv, "--model", model, "--json"}));
+    const Ended replayed = run({"replay", log, "--profile", "cia402", "--objects", "6041", "6064",
+                                "6074", "--model", model, "--json"});
+    const double off = inertia_of(replayed) / of_csv - 1;
+    std::printf("figure: inertia of the log over that of the CSV: %+.2g (torque in 0.1 %% of rated)\n",
+                off);
+    EXPECT_LT(std::abs(off), 1e-4);
+    const Json bus = json_of(replayed).at("bus");
+    EXPECT_EQ(bus.at("lost"), 0);
+    EXPECT_EQ(bus.at("repeated"), 0);
+    EXPECT_EQ(bus.at("late"), 0);
+    EXPECT_LT(bus.at("jitter_s").get<double>(), 1e-6);
+    EXPECT_EQ(bus.at("clock"), "SYNC");
+}
+
+TEST(Replay, AMapFileSaysTheSameAsTheProfile) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string log = simulated(folder, model, sine, "a.log");
+    const std::string map =
+        write(folder, "map.toml",
+              "[bus]\nsync = 0x80\n[signals.position_count]\nid = 0x181\nstart_bit = 16\nlength = "
+              "32\nsigned = true\n[signals.torque_ref_permille]\nid = 0x181\nstart_bit = 48\nlength = "
+              "16\nsigned = true\n");
+    const std::string profile = write(folder, "profile.toml",
+                                      "[bus]\nprofile = \"cia402\"\nobjects = [\"6041\", \"6064\", "
+                                      "\"6074\"]\n");
+    const double one = inertia_of(run({"replay", log, "--map", map, "--model", model, "--json"}));
+    EXPECT_EQ(one, inertia_of(run({"replay", log, "--map", profile, "--model", model, "--json"})));
+    EXPECT_EQ(one, inertia_of(run({"identify", log, "--map", map, "--model", model, "--json"})));
+}
+
+TEST(Replay, ALogIsACaptureOfEveryVerb) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string log =
+        simulated(folder, model, "trapezoid:stroke=6.28,velocity=40,cycles=4", "a.log");
+    const std::string map = write(folder, "profile.toml",
+                                  "[bus]\nprofile = \"cia402\"\nobjects = [\"6041\", \"6064\", "
+                                  "\"6074\"]\n");
+    const Json compared = json_of(run({"compare", model, log, "--map", map, "--json"}));
+    EXPECT_LT(compared.at("torque_error").get<double>(), 0.03);
+}
+
+TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string log = simulated(folder, model, sine, "a.log");
+    const auto expect = [&](const std::vector<std::string>& words, int code,
+                            const std::string& said) {
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.code, code) << ended.err;
+        EXPECT_NE(ended.err.find(said), std::string::npos) << ended.err;
+    };
+    expect({"replay", log}, 2, "--map FILE, --dbc FILE, --profile cia402");
+    expect({"replay", log, "--profile", "cia402", "--node", "9"}, 3, "0x189");
+    const std::string torn = write(folder, "torn.log", "(1.0) can0 181#00\n(1.1) can0 18#0\n");
+    expect({"replay", torn, "--profile", "cia402"}, 3, "torn.log:2: ");
+    const std::string overlapping =
+        write(folder, "overlap.toml",
+              "[signals.position_count]\nid = 0x181\nstart_bit = 0\nlength = 32\n"
+              "[signals.torque_permille]\nid = 0x181\nstart_bit = 16\nlength = 16\n");
+    expect({"replay", log, "--map", overlapping}, 3, "share bits of frame 0x181");
+    const std::string leaves = write(folder, "leaves.toml",
+                                     "[signals.position_count]\nid = 0x181\nstart_bit = 500\n"
+                                     "length = 32\n");
+    expect({"replay", log, "--map", leaves}, 3, "leaves.toml:");
+    const std::string column =
+        write(folder, "column.toml", "[signals.torque]\ncolumn = \"t\"\n");
+    expect({"replay", log, "--map", column}, 3, "column.toml:2: ");
+}
