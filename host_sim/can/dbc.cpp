@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace servoid::can {
 
@@ -81,7 +82,7 @@ class Parser {
 
     void read_section() {
         const Token& first = next();
-        const std::string_view keyword = is_keyword(first) ? first.text : "";
+        const std::string_view keyword = first.kind == TokenKind::word ? first.text : "";
         line_ = first.line;
         if (keyword == "BO_") return read_message();
         if (keyword == "SG_") return read_signal();
@@ -153,6 +154,19 @@ class Parser {
         const auto value = parse_number(take_word(what));
         if (!value) fail_at(token, what);
         return *value;
+    }
+
+    // Some files bound a float by more than a double holds: 4.4E+481.
+    double take_limit(const char* what) {
+        const Token& token = peek();
+        std::string_view word = take_word(what);
+        if (word.starts_with('+')) word.remove_prefix(1);
+        double value = 0;
+        const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (error == std::errc::invalid_argument || stop != word.data() + word.size())
+            fail_at(token, what);
+        if (error == std::errc()) return value;
+        return word.starts_with('-') ? -HUGE_VAL : HUGE_VAL;
     }
 
     FrameId frame_id(std::uint32_t number) const {
@@ -248,9 +262,9 @@ class Parser {
         signal.field.offset = take_number("the offset");
         take_sign(")");
         take_sign("[");
-        signal.minimum = take_number("the minimum");
+        signal.minimum = take_limit("the minimum");
         take_sign("|");
-        signal.maximum = take_number("the maximum");
+        signal.maximum = take_limit("the maximum");
         take_sign("]");
     }
 

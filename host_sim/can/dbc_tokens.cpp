@@ -9,10 +9,10 @@ namespace servoid::can {
 namespace {
 
 constexpr std::string_view keywords =
-    " VERSION NS_ BS_ BU_ BO_ SG_ EV_ CM_ VAL_ VAL_TABLE_ BA_ BA_DEF_ BA_DEF_DEF_ BA_REL_ "
+    " NS_ BS_ BU_ BO_ SG_ EV_ CM_ VAL_ VAL_TABLE_ BA_ BA_DEF_ BA_DEF_DEF_ BA_REL_ "
     "BA_DEF_REL_ BA_DEF_DEF_REL_ BA_SGTYPE_ BA_DEF_SGTYPE_ BO_TX_BU_ ENVVAR_DATA_ EV_DATA_ SGTYPE_ "
     "SGTYPE_VAL_ SIG_TYPE_REF_ SIG_GROUP_ SIG_VALTYPE_ SIGTYPE_VALTYPE_ SG_MUL_VAL_ CAT_ CAT_DEF_ "
-    "FILTER BU_SG_REL_ BU_EV_REL_ BU_BO_REL_ NS_DESC_ ";
+    "BU_SG_REL_ BU_EV_REL_ BU_BO_REL_ NS_DESC_ ";
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 

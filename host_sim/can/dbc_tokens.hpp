@@ -21,7 +21,9 @@ struct Token {
     bool at_margin = false; // nothing, not even a blank, stands before it in its line
 };
 
-bool is_keyword(const Token& token); // that begins a section, or says what a section is about
+// That begins a section, or says what a section is about. VERSION and FILTER are not among them:
+// signals have these names.
+bool is_keyword(const Token& token);
 bool is_sign(const Token& token, std::string_view sign);
 
 // Ends with one token of kind `end`. `//` comments are passed over. FileError: a string that is not

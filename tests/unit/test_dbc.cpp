@@ -1,6 +1,9 @@
 #include "can/dbc.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 
+#include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -187,6 +190,10 @@ TEST(Dbc, LineEndsAndByteOrderMark) {
     const Dbc dbc = parse(windows);
     EXPECT_EQ(dbc.messages.size(), 3u);
     EXPECT_EQ(dbc.messages.at("DriveStatus").line, 38);
+    EXPECT_EQ(parse("\xef\xbb\xbf"
+                    "BO_ 1 A: 8 X")
+                  .messages.size(),
+              1u);
 }
 
 TEST(Dbc, SmallestFile) {
@@ -207,6 +214,9 @@ TEST(Dbc, SymbolsWithoutBusTimingOrOnOneLine) {
               1u);
     EXPECT_EQ(parse("NS_ : CM_ BA_ SIG_VALTYPE_ SG_MUL_VAL_\nBS_:\nBU_: A\n" + end).messages.size(),
               1u);
+    EXPECT_EQ(
+        parse("NS_ :\nBA_\nSIG_VALTYPE_\nBO_TX_BU_\nSG_MUL_VAL_\n\nBS_:\n" + end).messages.size(),
+        1u);
     EXPECT_EQ(parse("NS_ :\nBA_DEF_ BO_ \"x\" INT 0 1;\n" + end).messages.size(), 1u);
     EXPECT_EQ(parse("NS_ :\nBS_:\nBU_:\n" + end).messages.size(), 1u);
 }
@@ -214,6 +224,26 @@ TEST(Dbc, SymbolsWithoutBusTimingOrOnOneLine) {
 TEST(Dbc, MissingSemicolonEndsAtTheNextSection) {
     EXPECT_EQ(parse("CM_ \"text\"\n" + message_with(good_signal)).messages.size(), 1u);
     EXPECT_EQ(parse("MADE_UP_ 1 2 3 ;\n" + message_with(good_signal)).messages.size(), 1u);
+}
+
+TEST(Dbc, KeywordsOfOldAsNames) {
+    const Dbc dbc = parse("VERSION \"\"\nBU_: FILTER VERSION\nBO_ 1 FILTER: 8 FILTER\n" +
+                          replaced(good_signal, "S :", "VERSION :"));
+    EXPECT_EQ(find_signal(dbc, "FILTER.VERSION").line, 4);
+}
+
+TEST(Dbc, LimitsBeyondADouble) {
+    const DbcSignal signal =
+        parse(message_with(replaced(good_signal, "[0|0]", "[-4E+481|+4.4E481]")))
+            .messages.at("A")
+            .signals.at(0);
+    EXPECT_EQ(signal.minimum, -HUGE_VAL);
+    EXPECT_EQ(signal.maximum, HUGE_VAL);
+}
+
+TEST(Dbc, LinesWithinStringsCount) {
+    const Dbc dbc = parse("VERSION \"a\nb\r\nc\"\n" + message_with(good_signal));
+    EXPECT_EQ(find_signal(dbc, "A.S").line, 5);
 }
 
 TEST(Dbc, Comments) {
@@ -236,6 +266,11 @@ TEST(Dbc, OtherCodePages) {
 }
 
 TEST(Dbc, ReadsAFile) {
+    const std::string path = testing::TempDir() + "servoid_read.dbc";
+    write_file(path, whole_file);
+    EXPECT_EQ(read_dbc(path).messages.size(), 3u);
+    EXPECT_EQ(read_dbc(path).path, path);
+    std::remove(path.c_str());
     try {
         read_dbc("no/such.dbc");
         FAIL();
@@ -280,6 +315,8 @@ TEST(DbcErrors, Messages) {
               "a.dbc:1: has \"eight\" where the number of bytes should be" + form);
     EXPECT_EQ(error_of("BO_ 1 A:\n\n" + good_signal),
               "a.dbc:1: ends where the number of bytes should be" + form);
+    EXPECT_EQ(error_of("BO_\n\n" + message_with("")),
+              "a.dbc:1: ends where an identifier should be" + form);
     EXPECT_EQ(error_of("BO_"), "a.dbc:1: ends where an identifier should be" + form);
 }
 
