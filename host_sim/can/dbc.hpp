@@ -10,10 +10,10 @@
 namespace servoid::can {
 
 struct DbcSignal {
-    Field field;
-    std::string unit;
-    bool multiplexed = false; // or the multiplexer itself decides whether it is there
-    bool multiplexor = false;
+    Field field;              // its name is the signal's alone
+    std::string unit;         // UTF-8, whatever the file was in
+    bool multiplexed = false; // `m0`: there or not, as the multiplexer says
+    bool multiplexor = false; // `M`: the multiplexer; `m0M` is both
     double minimum = 0, maximum = 0;
     long line = 0;
 };
@@ -31,9 +31,12 @@ struct Dbc {
     std::map<std::string, DbcMessage> messages; // by name
 };
 
-// BO_, SG_, SIG_VALTYPE_ (floats); every other section is passed over. FileError with line: a
-// malformed line, a signal that leaves its message, two messages of one name or identifier.
+// BO_, SG_, SIG_VALTYPE_ (floats); every other section is passed over, and so are the signals that
+// belong to no message (VECTOR__INDEPENDENT_SIG_MSG). FileError with line: a malformed line, a
+// message of more than 64 bytes, a signal that leaves its message, two messages of one name or
+// identifier, two signals of one name in a message, a string that is not closed.
 Dbc read_dbc(const std::string& path);
+Dbc parse_dbc(const std::string& text, const std::string& path); // path: for messages
 
 // "Message.Signal". Throws FileError: no such message or signal (the nearest names are said), a
 // multiplexed signal ("multiplexed signals are not supported").

@@ -29,14 +29,16 @@ struct Field {
 // "bits 56…71 leave a frame of 8 bytes".
 std::string fault_of(const Field& field, int bytes);
 
+// What follows is for fields without fault within 64 bytes.
+
 // Bytes that a frame must have at least to hold it.
 int bytes_needed(const Field& field);
 
-// Whether two fields of one frame share a bit.
+// Whether two fields share a bit; those of different frames never do.
 bool overlap(const Field& a, const Field& b);
 
-// The bits as they are (sign extended for signed_integer; the pattern of a float). The frame must
-// hold bytes_needed().
+// The bits as they are (sign extended for signed_integer; the pattern of a float; of an unsigned
+// number of 64 bits the same bits). The frame must hold bytes_needed().
 std::int64_t raw_of(const Field& field, const Frame& frame);
 double value_of(const Field& field, const Frame& frame);
 
