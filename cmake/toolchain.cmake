@@ -11,8 +11,19 @@ if(SERVOID_CCACHE)
   if(SERVOID_CCACHE_PROGRAM)
     foreach(language C CXX)
       if(NOT CMAKE_${language}_COMPILER_LAUNCHER)
-        set(CMAKE_${language}_COMPILER_LAUNCHER "${SERVOID_CCACHE_PROGRAM}")
+        # a precompiled header is part of what is compared
+        set(CMAKE_${language}_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+            CCACHE_SLOPPINESS=pch_defines,time_macros "${SERVOID_CCACHE_PROGRAM}")
       endif()
     endforeach()
   endif()
 endif()
+
+# What nearly every file of a target includes, parsed once. Only under the sanitizers, which are
+# built beside everything else: gcc 12 forgets with a precompiled header which warnings its own
+# string functions have switched off.
+function(servoid_precompile target)
+  if(SERVOID_SANITIZE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
