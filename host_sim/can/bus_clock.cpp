@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kFewest = 8;
 constexpr std::size_t kAhead = 6; // arrivals that must agree on a lost or a repeated frame
-constexpr double kFollow = 0.02;  // of a delay that the start follows: drift of either clock
+constexpr std::size_t kFirst = 16;
+constexpr double kFollow = 0.02; // of a delay that the start follows: drift of either clock
 
 double median_step(const std::vector<double>& arrivals) {
     std::vector<double> steps;
@@ -32,19 +33,34 @@ double lasting_delay(const std::vector<double>& arrivals, std::size_t i, double 
     return least;
 }
 
+// Where cycle 0 begins: no frame is early, and the first few are not all late.
+double first_start(const std::vector<double>& arrivals, double period_s) {
+    double start = arrivals[0];
+    for (std::size_t i = 0; i < std::min(arrivals.size(), kFirst); ++i)
+        start = std::min(start, arrivals[i] - double(i) * period_s);
+    return start;
+}
+
+// By how many cycles arrival i lies off: back where it is early itself, forward where it and the
+// next few are all late. The last few have nobody to agree with: what is late there is late.
 void number(const std::vector<double>& arrivals, FittedClock& clock) {
     clock.cycle.assign(arrivals.size(), 0);
-    double start = clock.start_s;
+    const double period = clock.period_s;
+    double start = first_start(arrivals, period);
     long next = 0;
     for (std::size_t i = 0; i < arrivals.size(); ++i) {
-        const double expected = start + double(next) * clock.period_s;
-        const double delay = lasting_delay(arrivals, i, expected, clock.period_s);
-        const long missed = std::lround(delay / clock.period_s);
-        // The last few have nobody to agree with: what is late there is late.
-        const bool told = i + kAhead <= arrivals.size();
-        next += missed > 0 || told ? std::max(missed, next > 0 ? -1L : 0L) : 0;
-        clock.cycle[i] = next++;
-        start += kFollow * (delay - double(missed) * clock.period_s);
+        const double expected = start + double(next) * period, own = arrivals[i] - expected;
+        const double lasting = lasting_delay(arrivals, i, expected, period);
+        const bool agreed = i + kAhead <= arrivals.size();
+        long missed = 0;
+        if (own < -period / 2)
+            missed = std::max(-next, std::lround(own / period));
+        else if (agreed)
+            missed = std::max(0L, std::lround(lasting / period));
+        clock.cycle[i] = next + missed;
+        next = clock.cycle[i] + 1;
+        const double off = lasting - double(missed) * period;
+        if (std::abs(off) < period / 2) start += kFollow * off;
     }
 }
 
@@ -82,7 +98,6 @@ FittedClock fit_clock(const std::vector<double>& arrivals, std::optional<double>
     if (!(out.period_s > 0))
         throw Refusal("most frames carry the same time",
                       "a log whose times are finer than the cycle, or map a counter");
-    out.start_s = arrivals[0];
     for (int pass = 0; pass < 3; ++pass) {
         number(arrivals, out);
         fit_line(arrivals, out, period_s.has_value());

@@ -16,7 +16,7 @@ namespace servoid::can {
 namespace {
 
 constexpr std::uint32_t kSync = 0x80, kTpdo = 0x181;
-constexpr std::int64_t kEnabled = 0x0237; // status word: operation enabled
+constexpr std::int64_t kEnabled = 0x0237;  // status word: operation enabled
 constexpr std::int64_t kAnswer_ns = 40000; // a TPDO after its SYNC: its own length on the bus
 
 bool is_mapped(const FrameMap& map, const Frame& frame) {

@@ -38,7 +38,8 @@ std::vector<long> device_cycles(const std::vector<std::int64_t>& ticks, const Fi
     std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
     const double step = steps[steps.size() / 2];
     if (!(step > 0))
-        throw Refusal("the device time stands still", "a map whose [bus.time] is the drive's clock");
+        throw Refusal("the device time stands still",
+                      "a map whose [bus.time] is the drive's clock");
     std::vector<long> cycle;
     for (double t : time_s)
         cycle.push_back(std::lround(t / step));
@@ -143,8 +144,8 @@ BusTable::Cycles BusTable::cycles(BusReport& report) const {
         const long ahead = std::lround((own.start_s - base.start_s) / base.period_s);
         for (std::size_t i = 0; i < time_s.size(); ++i) {
             out[a].push_back(own.cycle[i] + ahead);
-            report.late += time_s[i] - own.start_s - double(own.cycle[i]) * base.period_s >
-                           base.period_s / 2;
+            report.late +=
+                time_s[i] - own.start_s - double(own.cycle[i]) * base.period_s > base.period_s / 2;
         }
     }
     return out;
@@ -187,8 +188,8 @@ RawTable BusTable::table_of(const Placed& placed, long first, long end, double p
         for (std::size_t s = 0; s < arrivals_[a].signals.size(); ++s) {
             const MappedSignal& signal = map_.signals[arrivals_[a].signals[s]];
             const bool plain = signal.field.scale == 1 && signal.field.offset == 0;
-            RawColumn column{signal.name, signal.meaning, {},
-                             plain ? printed_as_integer : printed_as_double};
+            RawColumn column{
+                signal.name, signal.meaning, {}, plain ? printed_as_integer : printed_as_double};
             for (long k = first; k < end; ++k)
                 column.values.push_back(arrivals_[a].values[s][placed.at[a].at(k)]);
             table.columns.push_back(std::move(column));

@@ -12,12 +12,12 @@
 namespace servoid::can {
 
 struct BusReport {
-    long frames = 0;    // all that were seen
-    long used = 0;      // that stand in a row
-    long lost = 0;      // cycles of which a frame is missing
-    long repeated = 0;  // the same once more
-    long late = 0;      // more than half a period after their time
-    long reordered = 0; // after one that was sent later (seen by a counter or a device time)
+    long frames = 0;       // all that were seen
+    long used = 0;         // that stand in a row
+    long lost = 0;         // cycles of which a frame is missing
+    long repeated = 0;     // the same once more
+    long late = 0;         // more than half a period after their time
+    long reordered = 0;    // after one that was sent later (seen by a counter or a device time)
     long short_frames = 0; // too few bytes for the map
     long errors = 0;       // error frames of the bus
     double period_s = 0;
@@ -26,14 +26,14 @@ struct BusReport {
 };
 
 // Collects the mapped frames in the order of their arrival; then the tables, one for each stretch
-// without a gap that has at least 16 rows, SI or as the columns' names say. Memory: 24 bytes and 8 a
-// signal for each frame.
+// without a gap that has at least 16 rows, SI or as the columns' names say. Memory: 24 bytes and 8
+// a signal for each frame.
 class BusTable {
   public:
     explicit BusTable(FrameMap map);
     void add(const Frame& frame);
-    // Throws FileError (a mapped identifier was never seen; two interfaces carry it) and Refusal (too
-    // few cycles).
+    // Throws FileError (a mapped identifier was never seen; two interfaces carry it) and Refusal
+    // (too few cycles).
     std::vector<RawTable> tables(const std::string& path, BusReport& report) const;
 
   private:

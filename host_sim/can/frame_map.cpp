@@ -42,8 +42,8 @@ FieldKind kind_of_field(const TomlView& table, int length) {
     if (type == "float" && length == 32) return FieldKind::float32;
     if (type == "float" && length == 64) return FieldKind::float64;
     if (type != "integer")
-        table.fail("type", table.full("type") +
-                               " must be integer, or float with a length of 32 or 64");
+        table.fail("type",
+                   table.full("type") + " must be integer, or float with a length of 32 or 64");
     return yes(table, "signed") ? FieldKind::signed_integer : FieldKind::unsigned_integer;
 }
 
@@ -91,8 +91,7 @@ FrameMap of_profile(const TomlView& bus) {
         bus.fail("profile", bus.full("profile") + " must be cia402");
     const int node = bus.has("node") ? int(whole(bus, "node", 1, 127)) : 1;
     const int tpdo = bus.has("tpdo") ? int(whole(bus, "tpdo", 1, 4)) : 1;
-    return map_of_cia402(node, tpdo,
-                         bus.has("objects") ? bus.texts("objects") : default_objects());
+    return map_of_cia402(node, tpdo, bus.has("objects") ? bus.texts("objects") : default_objects());
 }
 
 void read_bus(const TomlView& bus, FrameMap& map) {
@@ -108,18 +107,17 @@ void read_bus(const TomlView& bus, FrameMap& map) {
 void read_metadata(const TomlView& table, FrameMap& map) {
     for (const std::string& key : table.keys()) {
         const toml::node& node = *table.raw().get(key);
-        map.metadata[key] =
-            node.is_string() ? table.text(key) : format_number(table.number(key));
+        map.metadata[key] = node.is_string() ? table.text(key) : format_number(table.number(key));
     }
 }
 
 std::string suffix_of(const std::string& unit) {
     static const std::map<std::string, std::string> known = {
-        {"Nm", "_Nm"},     {"N·m", "_Nm"},   {"mNm", "_mNm"},   {"N", "_N"},
-        {"A", "_A"},       {"rad", "_rad"},  {"rev", "_rev"},   {"deg", "_deg"},
-        {"count", "_count"}, {"inc", "_count"}, {"counts", "_count"}, {"m", "_m"},
-        {"mm", "_mm"},     {"rad/s", "_rad_s"}, {"rpm", "_rpm"}, {"1/min", "_rpm"},
-        {"m/s", "_m_s"},   {"mm/s", "_mm_s"}, {"permille", "_permille"}, {"‰", "_permille"}};
+        {"Nm", "_Nm"},       {"N·m", "_Nm"},      {"mNm", "_mNm"},           {"N", "_N"},
+        {"A", "_A"},         {"rad", "_rad"},     {"rev", "_rev"},           {"deg", "_deg"},
+        {"count", "_count"}, {"inc", "_count"},   {"counts", "_count"},      {"m", "_m"},
+        {"mm", "_mm"},       {"rad/s", "_rad_s"}, {"rpm", "_rpm"},           {"1/min", "_rpm"},
+        {"m/s", "_m_s"},     {"mm/s", "_mm_s"},   {"permille", "_permille"}, {"‰", "_permille"}};
     const auto found = known.find(unit);
     return found == known.end() ? "" : found->second;
 }
@@ -127,8 +125,7 @@ std::string suffix_of(const std::string& unit) {
 MappedSignal mapped(const Dbc& dbc, const std::string& name, const std::string& said) {
     const std::size_t colon = said.find(':');
     const DbcSignal& signal = find_signal(dbc, said.substr(0, colon));
-    const std::string unit =
-        colon == std::string::npos ? signal.unit : said.substr(colon + 1);
+    const std::string unit = colon == std::string::npos ? signal.unit : said.substr(colon + 1);
     const std::string column = name + suffix_of(unit);
     if (suffix_of(unit).empty() || !find_column(column))
         throw FileError(dbc.path, signal.line,
@@ -224,8 +221,7 @@ FrameMap map_of_cia402(int node, int tpdo, const std::vector<std::string>& objec
                                     FieldKind::signed_integer, 1, 0}});
         bit += known->bits;
     }
-    if (bit > 64)
-        throw UsageError(fmt::format("--objects: {} bits; a TPDO holds 64", bit));
+    if (bit > 64) throw UsageError(fmt::format("--objects: {} bits; a TPDO holds 64", bit));
     check_map(map);
     return map;
 }

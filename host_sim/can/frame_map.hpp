@@ -31,7 +31,8 @@ struct FrameMap {
 
 // From a map file: [signals.NAME] with id, start_bit, length, byte_order, signed, scale, offset
 // (and `extended`, `type = "float"`); [bus] with sync, period_s, interface; [bus.counter] and
-// [bus.time]. Or [bus] with profile, node, tpdo, objects. FileError: a field that leaves its frame, two that overlap, a wrong name or type.
+// [bus.time]. Or [bus] with profile, node, tpdo, objects. FileError: a field that leaves its frame,
+// two that overlap, a wrong name or type.
 FrameMap read_frame_map(const std::string& path);
 
 // From a DBC: signal name ("torque", "position") to "Message.Signal" or "Message.Signal:unit".

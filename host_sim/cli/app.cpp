@@ -98,8 +98,8 @@ std::vector<Capture> CaptureOptions::read_files(const std::vector<std::string>& 
     const CaptureScales scales = model ? scales_of(*model) : CaptureScales{};
     std::vector<Capture> out;
     for (const std::string& path : paths)
-        for (Capture& capture : path.ends_with(".log") ? read_log(path, map, scales)
-                                                       : read_table(path, map, scales)) {
+        for (Capture& capture :
+             path.ends_with(".log") ? read_log(path, map, scales) : read_table(path, map, scales)) {
             if (model) refuse_other_motion(capture, *model, path);
             out.push_back(std::move(capture));
         }

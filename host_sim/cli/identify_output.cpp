@@ -118,9 +118,9 @@ void print_identification(const Output& out, const std::vector<Identification>& 
         print(out, one, capture);
     if (all.size() < 2) return;
     const Identification answer = combined(all);
-    out.line(fmt::format(
-        "all together     {:.5g} ± {:.2g} {}", answer.inertia.value, answer.inertia.std,
-        unit_of(Quantity::inertia, motion_of(capture), capture.torque_in_ampere)));
+    out.line(fmt::format("all together     {:.5g} ± {:.2g} {}", answer.inertia.value,
+                         answer.inertia.std,
+                         unit_of(Quantity::inertia, motion_of(capture), capture.torque_in_ampere)));
 }
 
 } // namespace servoid::cli

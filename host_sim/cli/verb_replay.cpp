@@ -21,17 +21,10 @@ struct Options {
 };
 
 Json bus_json(const can::BusReport& bus) {
-    return {{"frames", bus.frames},
-            {"lost", bus.lost},
-            {"repeated", bus.repeated},
-            {"late", bus.late},
-            {"jitter_s", bus.jitter_s},
-            {"used", bus.used},
-            {"reordered", bus.reordered},
-            {"short", bus.short_frames},
-            {"errors", bus.errors},
-            {"clock", bus.clock},
-            {"period_s", bus.period_s}};
+    return {{"frames", bus.frames},       {"lost", bus.lost},          {"repeated", bus.repeated},
+            {"late", bus.late},           {"jitter_s", bus.jitter_s},  {"used", bus.used},
+            {"reordered", bus.reordered}, {"short", bus.short_frames}, {"errors", bus.errors},
+            {"clock", bus.clock},         {"period_s", bus.period_s}};
 }
 
 void print_bus(const Output& out, const can::BusCaptures& log) {
@@ -56,8 +49,8 @@ const Capture& longest(const std::vector<Capture>& captures) {
 void run_replay(const Options& o) {
     const std::optional<Model> model = o.identify.read_model();
     const Model* known = model ? &*model : nullptr;
-    const can::BusCaptures log = can::read_candump(o.log, o.bus.frame_map(),
-                                                   known ? scales_of(*known) : CaptureScales{});
+    const can::BusCaptures log =
+        can::read_candump(o.log, o.bus.frame_map(), known ? scales_of(*known) : CaptureScales{});
     print_bus(o.output, log);
     const Capture& capture = longest(log.captures);
     if (!o.out.empty()) write_file(o.out, format_capture_csv(capture));
@@ -72,8 +65,7 @@ void run_replay(const Options& o) {
 
 void add_replay(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb =
-        app.add_subcommand("replay", "captured CAN traffic through the firmware core");
+    CLI::App* verb = app.add_subcommand("replay", "captured CAN traffic through the firmware core");
     verb->add_option("log", o->log, "candump log (candump -l, -L)")->required();
     add_bus_options(*verb, o->bus);
     add_identify_options(*verb, o->identify);

@@ -74,7 +74,9 @@ void add_simulate(CLI::App& app) {
     verb->add_option("--mystery", o->mystery,
                      "hide one effect that the model lacks; this seed chooses it (servoid reveal "
                      "tells)");
-    verb->add_option("--out", o->out, "capture file (.csv, or .log as candump writes it), - for stdout")->required();
+    verb->add_option("--out", o->out,
+                     "capture file (.csv, or .log as candump writes it), - for stdout")
+        ->required();
     add_output_options(*verb, o->output);
     add_examples(
         *verb, "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"

@@ -30,8 +30,9 @@ TEST(Replay, GivesTheInertiaOfTheCsv) {
     const Ended replayed = run({"replay", log, "--profile", "cia402", "--objects", "6041", "6064",
                                 "6074", "--model", model, "--json"});
     const double off = inertia_of(replayed) / of_csv - 1;
-    std::printf("figure: inertia of the log over that of the CSV: %+.2g (torque in 0.1 %% of rated)\n",
-                off);
+    std::printf(
+        "figure: inertia of the log over that of the CSV: %+.2g (torque in 0.1 %% of rated)\n",
+        off);
     EXPECT_LT(std::abs(off), 1e-4);
     const Json bus = json_of(replayed).at("bus");
     EXPECT_EQ(bus.at("lost"), 0);
@@ -45,11 +46,11 @@ TEST(Replay, AMapFileSaysTheSameAsTheProfile) {
     const Folder folder;
     const std::string model = example("system1.toml");
     const std::string log = simulated(folder, model, sine, "a.log");
-    const std::string map =
-        write(folder, "map.toml",
-              "[bus]\nsync = 0x80\n[signals.position_count]\nid = 0x181\nstart_bit = 16\nlength = "
-              "32\nsigned = true\n[signals.torque_ref_permille]\nid = 0x181\nstart_bit = 48\nlength = "
-              "16\nsigned = true\n");
+    const std::string map = write(
+        folder, "map.toml",
+        "[bus]\nsync = 0x80\n[signals.position_count]\nid = 0x181\nstart_bit = 16\nlength = "
+        "32\nsigned = true\n[signals.torque_ref_permille]\nid = 0x181\nstart_bit = 48\nlength = "
+        "16\nsigned = true\n");
     const std::string profile = write(folder, "profile.toml",
                                       "[bus]\nprofile = \"cia402\"\nobjects = [\"6041\", \"6064\", "
                                       "\"6074\"]\n");
@@ -93,7 +94,6 @@ TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
                                      "[signals.position_count]\nid = 0x181\nstart_bit = 500\n"
                                      "length = 32\n");
     expect({"replay", log, "--map", leaves}, 3, "leaves.toml:");
-    const std::string column =
-        write(folder, "column.toml", "[signals.torque]\ncolumn = \"t\"\n");
+    const std::string column = write(folder, "column.toml", "[signals.torque]\ncolumn = \"t\"\n");
     expect({"replay", log, "--map", column}, 3, "column.toml:2: ");
 }

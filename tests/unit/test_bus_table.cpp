@@ -43,9 +43,9 @@ using Sends = std::function<bool(const Frame&, long cycle)>;
 // SYNC, torque = cycle, position = 10·cycle; `sends` says which are on the bus.
 void play(BusTable& table, long cycles, const Sends& sends) {
     for (long k = 0; k < cycles; ++k)
-        for (const Frame& f : {frame(0x80, k * kPeriod_ns, 0, 0),
-                               frame(0x181, k * kPeriod_ns + 50000, k, 2),
-                               frame(0x281, k * kPeriod_ns + 90000, 10 * k, 4)})
+        for (const Frame& f :
+             {frame(0x80, k * kPeriod_ns, 0, 0), frame(0x181, k * kPeriod_ns + 50000, k, 2),
+              frame(0x281, k * kPeriod_ns + 90000, 10 * k, 4)})
             if (sends(f, k)) table.add(f);
 }
 
@@ -186,7 +186,8 @@ TEST(BusTable, WhatIsNotThereIsSaid) {
     EXPECT_THROW(empty.tables("log", report), FileError);
     BusTable shorter(map);
     for (long k = 0; k < 50; ++k)
-        shorter.add(frame(0x181, k * kPeriod_ns, k, 2)), shorter.add(frame(0x281, k * kPeriod_ns, k, 3));
+        shorter.add(frame(0x181, k * kPeriod_ns, k, 2)),
+            shorter.add(frame(0x281, k * kPeriod_ns, k, 3));
     try {
         shorter.tables("log", report);
         FAIL();
