@@ -26,8 +26,8 @@ struct BusReport {
 };
 
 // Collects the mapped frames in the order of their arrival; then the tables, one for each stretch
-// without a gap that has at least 16 rows, SI or as the columns' names say. Memory: 24 bytes and 8
-// a signal for each frame.
+// without a gap that has at least 16 rows, SI or as the columns' names say. Memory: some 30 bytes
+// and 8 a signal for each frame, and 50 more while the tables are made.
 class BusTable {
   public:
     explicit BusTable(FrameMap map);
