@@ -19,28 +19,16 @@ constexpr std::uint32_t kSync = 0x80, kTpdo = 0x181;
 constexpr std::int64_t kEnabled = 0x0237;  // status word: operation enabled
 constexpr std::int64_t kAnswer_ns = 40000; // a TPDO after its SYNC: its own length on the bus
 
-bool is_mapped(const FrameMap& map, const Frame& frame) {
-    for (const MappedSignal& s : map.signals)
-        if (s.field.frame == id_of(frame)) return true;
-    return false;
-}
-
-void collect(CandumpReader& reader, const FrameMap& map, const std::string& path, BusTable& table) {
-    int chosen = -1; // the interface
-    for (Frame frame; reader.next(frame);) {
-        const std::string& name = reader.interfaces()[frame.interface];
-        if (!map.interface.empty() && name != map.interface) continue;
-        if (is_mapped(map, frame)) {
-            if (chosen < 0) chosen = frame.interface;
-            if (chosen != frame.interface)
-                throw FileError(path, reader.line(),
-                                fmt::format("frame {} comes from {} and from {}; name one of them "
-                                            "as `interface` in [bus] of the map",
-                                            to_text(id_of(frame)),
-                                            reader.interfaces()[std::size_t(chosen)], name));
-        }
-        table.add(frame);
-    }
+// The interface that carries the data: as the map says, else that of the first mapped frame. A SYNC
+// of another bus is none of this one.
+std::string interface_of(const std::string& text, const FrameMap& map, const std::string& path) {
+    if (!map.interface.empty()) return map.interface;
+    CandumpReader reader(text, path);
+    for (Frame frame; reader.next(frame);)
+        for (const MappedSignal& s : map.signals)
+            if (!frame.error && s.field.frame == id_of(frame))
+                return reader.interfaces()[frame.interface];
+    return "";
 }
 
 std::int64_t rounded(double value, double least, double most, const char* what) {
@@ -60,9 +48,11 @@ void put(std::int64_t raw, int first_byte, int bytes, Frame& frame) {
 BusCaptures read_candump(const std::string& path, const FrameMap& map,
                          const CaptureScales& scales) {
     const std::string text = read_file(path);
+    const std::string interface = interface_of(text, map, path);
     CandumpReader reader(text, path);
     BusTable table(map);
-    collect(reader, map, path, table);
+    for (Frame frame; reader.next(frame);)
+        if (reader.interfaces()[frame.interface] == interface) table.add(frame);
     BusCaptures out;
     for (RawTable& rows : table.tables(path, out.report)) {
         check_columns(rows);

@@ -26,26 +26,13 @@ long pull_back_late(std::vector<long>& cycle) {
     return late;
 }
 
-std::vector<long> device_cycles(const std::vector<std::int64_t>& ticks, const Field& field,
-                                double& period_s) {
+// The drive's own times, s, in the order of arrival.
+std::vector<double> device_times(const std::vector<std::int64_t>& ticks, const Field& field) {
     const std::vector<long> rolled = unrolled(ticks, field.length);
-    std::vector<double> time_s;
+    std::vector<double> out;
     for (long tick : rolled)
-        time_s.push_back(double(tick - rolled.front()) * field.scale);
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < time_s.size(); ++i)
-        steps.push_back(time_s[i] - time_s[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
-    const double step = steps[steps.size() / 2];
-    if (!(step > 0))
-        throw Refusal("the device time stands still",
-                      "a map whose [bus.time] is the drive's clock");
-    std::vector<long> cycle;
-    for (double t : time_s)
-        cycle.push_back(std::lround(t / step));
-    // The mean step: a median of rounded ticks is off by some of one.
-    period_s = cycle.back() > 0 ? time_s.back() / double(cycle.back()) : step;
-    return cycle;
+        out.push_back(double(tick - rolled.front()) * field.scale);
+    return out;
 }
 
 } // namespace
@@ -121,11 +108,9 @@ FittedClock BusTable::clock_of(const Arrivals& a, BusReport& report) const {
         return fit_clock(a.time_s, map_.period_s);
     }
     report.clock = "device time";
-    double period_s = 0;
-    const std::vector<long> cycle = device_cycles(a.ticks, *map_.device_time, period_s);
-    FittedClock out = line_through(a.time_s, cycle);
-    report.period_s = period_s; // of the drive's clock, not of the log's
-    return out;
+    const FittedClock own = fit_clock(device_times(a.ticks, *map_.device_time), map_.period_s);
+    report.period_s = own.period_s; // of the drive's clock, not of the log's
+    return line_through(a.time_s, own.cycle);
 }
 
 // The number of the cycle of each arrival, for each identifier.
@@ -197,6 +182,17 @@ RawTable BusTable::table_of(const Placed& placed, long first, long end, double p
     return table;
 }
 
+// Those in which every identifier was received, in order. Only what was received is looked at: a
+// clock that jumps by years skips more cycles than could be counted through.
+std::vector<long> BusTable::whole_cycles(const Placed& placed) const {
+    std::vector<long> out;
+    for (const auto& [k, arrival] : placed.at.front())
+        if (std::all_of(placed.at.begin(), placed.at.end(),
+                        [k = k](const auto& frames) { return frames.contains(k); }))
+            out.push_back(k);
+    return out;
+}
+
 void BusTable::refuse_if_missing(const std::string& path) const {
     for (const Arrivals& a : arrivals_)
         if (a.time_s.empty())
@@ -212,24 +208,17 @@ std::vector<RawTable> BusTable::tables(const std::string& path, BusReport& repor
     report.frames = frames_, report.errors = errors_, report.short_frames = short_;
     refuse_if_missing(path);
     const Placed placed = place(report);
-    const auto whole = [&](long k) {
-        return k <= placed.last &&
-               std::all_of(placed.at.begin(), placed.at.end(),
-                           [&](const auto& frames) { return frames.contains(k); });
-    };
+    const std::vector<long> whole = whole_cycles(placed);
     std::vector<RawTable> out;
-    for (long k = placed.first; k <= placed.last; ++k) {
-        long end = k;
-        while (whole(end))
-            ++end;
-        if (end - k >= kShortest) {
-            out.push_back(table_of(placed, k, end, report.period_s));
-            out.back().path = path;
-            report.used += (end - k) * long(arrivals_.size());
-        }
-        if (end <= placed.last) ++report.lost;
-        k = end;
+    for (std::size_t from = 0, to = 0; from < whole.size(); from = to) {
+        while (to < whole.size() && whole[to] - whole[from] == long(to - from))
+            ++to;
+        if (long(to - from) < kShortest) continue;
+        out.push_back(table_of(placed, whole[from], whole[to - 1] + 1, report.period_s));
+        out.back().path = path;
+        report.used += long(to - from) * long(arrivals_.size());
     }
+    report.lost = placed.last - placed.first + 1 - long(whole.size());
     if (out.empty())
         throw Refusal(fmt::format("{}: no {} cycles in a row hold every signal", path, kShortest),
                       "a log of a bus that loses less");

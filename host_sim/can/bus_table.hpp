@@ -32,8 +32,7 @@ class BusTable {
   public:
     explicit BusTable(FrameMap map);
     void add(const Frame& frame);
-    // Throws FileError (a mapped identifier was never seen; two interfaces carry it) and Refusal
-    // (too few cycles).
+    // Throws FileError (a mapped identifier was never seen) and Refusal (too few cycles).
     std::vector<RawTable> tables(const std::string& path, BusReport& report) const;
 
   private:
@@ -56,6 +55,7 @@ class BusTable {
     Cycles cycles_by_sync(BusReport& report) const;
     Cycles cycles(BusReport& report) const;
     Placed place(BusReport& report) const;
+    std::vector<long> whole_cycles(const Placed& placed) const;
     RawTable table_of(const Placed& placed, long first, long end, double period_s) const;
 
     FrameMap map_;

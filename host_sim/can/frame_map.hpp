@@ -25,7 +25,7 @@ struct FrameMap {
     std::optional<Field> counter;     // sequence number of the cycle
     std::optional<Field> device_time; // of the drive; its scale makes seconds of it
     std::optional<double> period_s;   // stated; else found
-    std::string interface;            // "": whichever the frames come from, but one only
+    std::string interface;            // "": that of the first frame that is mapped
     std::map<std::string, std::string> metadata;
 };
 

@@ -71,6 +71,26 @@ TEST(Replay, ALogIsACaptureOfEveryVerb) {
     EXPECT_LT(compared.at("torque_error").get<double>(), 0.03);
 }
 
+// candump any: the SYNC of another bus is none of this one.
+TEST(Replay, AnotherBusIsLeftOut) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string log = simulated(folder, model, sine, "a.log");
+    std::istringstream lines(text_of(log));
+    std::string both;
+    for (std::string line; std::getline(lines, line);) {
+        both += line + "\n";
+        if (const auto at = line.find("can0"); at != std::string::npos)
+            both += line.replace(at, 4, "can1") + "\n";
+    }
+    const std::vector<std::string> options = {"--profile", "cia402",  "--objects", "6041",  "6064",
+                                              "6074",      "--model", model,       "--json"};
+    std::vector<std::string> one = {"replay", log}, two = {"replay", write(folder, "b.log", both)};
+    one.insert(one.end(), options.begin(), options.end());
+    two.insert(two.end(), options.begin(), options.end());
+    EXPECT_EQ(inertia_of(run(one)), inertia_of(run(two)));
+}
+
 TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
     const Folder folder;
     const std::string model = example("system1.toml");

@@ -195,3 +195,51 @@ TEST(BusTable, WhatIsNotThereIsSaid) {
         EXPECT_NE(std::string(e.what()).find("long enough"), std::string::npos) << e.what();
     }
 }
+
+// A period that is no whole number of ticks must not drift into another cycle.
+TEST(BusTable, ADeviceTimeMayBeCoarse) {
+    FrameMap map;
+    map.path = "map";
+    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    map.device_time = field("time", 0x181, 16, 32, FieldKind::unsigned_integer);
+    map.device_time->scale = 1e-6;
+    BusTable table(map);
+    for (long k = 0; k < 5000; ++k)
+        table.add(frame(0x181, k * kPeriod_ns, k | (k * 1000 / 3) << 16, 6));
+    BusReport report;
+    const auto tables = table.tables("log", report);
+    EXPECT_NEAR(report.period_s, 1e-3 / 3, 1e-9);
+    EXPECT_EQ(report.lost, 0);
+    ASSERT_EQ(tables.size(), 1u);
+    EXPECT_EQ(tables[0].rows(), 5000u);
+}
+
+TEST(BusTable, OneFrameIsRefused) {
+    FrameMap map;
+    map.path = "map";
+    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    map.device_time = field("time", 0x181, 16, 16, FieldKind::unsigned_integer);
+    BusTable table(map);
+    table.add(frame(0x181, 0, 1, 4));
+    BusReport report;
+    EXPECT_THROW(table.tables("log", report), Refusal);
+}
+
+// The clock of a logger that finds its date jumps by fifty years: a trillion cycles.
+TEST(BusTable, AJumpOfTheClockIsAGapAndNoLoop) {
+    for (const bool sync : {true, false}) {
+        FrameMap map = two_frames();
+        if (sync) map.sync = FrameId{0x80, false};
+        BusTable table(map);
+        play(table, 100, [&](const Frame& f, long k) {
+            Frame later = f;
+            if (k >= 50) later.time_ns += 1577836800'000000000;
+            table.add(later);
+            return false;
+        });
+        BusReport report;
+        const auto tables = table.tables("log", report);
+        ASSERT_EQ(tables.size(), 2u);
+        EXPECT_EQ(tables[0].rows() + tables[1].rows(), 100u);
+    }
+}
