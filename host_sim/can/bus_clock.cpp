@@ -64,6 +64,11 @@ void number(const std::vector<double>& arrivals, FittedClock& clock) {
     }
 }
 
+void refuse_if_few(const std::vector<double>& arrivals) {
+    if (arrivals.size() < kFewest)
+        throw Refusal("fewer than 8 frames hold what is asked for", "more cycles of the move");
+}
+
 // The straight line through arrivals over cycles.
 void fit_line(const std::vector<double>& arrivals, FittedClock& clock, bool stated) {
     const double n = double(arrivals.size());
@@ -91,8 +96,7 @@ void judge_arrivals(const std::vector<double>& arrivals, FittedClock& clock) {
 } // namespace
 
 FittedClock fit_clock(const std::vector<double>& arrivals, std::optional<double> period_s) {
-    if (arrivals.size() < kFewest)
-        throw Refusal("fewer than 8 frames hold what is asked for", "more cycles of the move");
+    refuse_if_few(arrivals);
     FittedClock out;
     out.period_s = period_s.value_or(median_step(arrivals));
     if (!(out.period_s > 0))
@@ -107,8 +111,7 @@ FittedClock fit_clock(const std::vector<double>& arrivals, std::optional<double>
 }
 
 FittedClock line_through(const std::vector<double>& arrivals, const std::vector<long>& cycle) {
-    if (arrivals.size() < kFewest)
-        throw Refusal("fewer than 8 frames hold what is asked for", "more cycles of the move");
+    refuse_if_few(arrivals);
     FittedClock out;
     out.cycle = cycle;
     fit_line(arrivals, out, false);

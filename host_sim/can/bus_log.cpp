@@ -9,13 +9,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace servoid::can {
 
 namespace {
 
-constexpr std::uint32_t kSync = 0x80, kTpdo = 0x181;
 constexpr std::int64_t kEnabled = 0x0237;  // status word: operation enabled
 constexpr std::int64_t kAnswer_ns = 40000; // a TPDO after its SYNC: its own length on the bus
 
@@ -31,16 +29,13 @@ std::string interface_of(const std::string& text, const FrameMap& map, const std
     return "";
 }
 
-std::int64_t rounded(double value, double least, double most, const char* what) {
+std::int64_t rounded(double value, const Field& field) {
+    const double most = std::ldexp(1.0, field.length - 1);
     const double r = std::round(value);
-    if (r < least || r > most)
-        throw UsageError(fmt::format("--out: {} of {:.6g} does not fit its object", what, value));
+    if (r < -most || r >= most)
+        throw UsageError(
+            fmt::format("--out: {} of {:.6g} does not fit its object", field.name, value));
     return std::int64_t(r);
-}
-
-void put(std::int64_t raw, int first_byte, int bytes, Frame& frame) {
-    for (int i = 0; i < bytes; ++i)
-        frame.data[std::size_t(first_byte + i)] = std::uint8_t(std::uint64_t(raw) >> (8 * i));
 }
 
 } // namespace
@@ -54,7 +49,9 @@ BusCaptures read_candump(const std::string& path, const FrameMap& map,
     for (Frame frame; reader.next(frame);)
         if (reader.interfaces()[frame.interface] == interface) table.add(frame);
     BusCaptures out;
-    for (RawTable& rows : table.tables(path, out.report)) {
+    std::vector<RawTable> tables = table.tables(path, out.report);
+    out.report.dropped = long(reader.dropped());
+    for (RawTable& rows : tables) {
         check_columns(rows);
         out.captures.push_back(assemble(std::move(rows), scales));
     }
@@ -65,22 +62,18 @@ std::string format_candump_log(const Capture& capture, const CaptureScales& scal
     if (!(scales.rated_torque > 0) || !(scales.position_per_count > 0))
         throw UsageError("--out: a candump log holds counts and per mille of rated torque; add "
                          "[sensor] and drive.rated_torque to the model");
+    const FrameMap map = map_of_cia402(1, 1, {"6041", "6064", "6074"});
+    const Field &position = map.signals[0].field, &torque = map.signals[1].field;
     std::string out;
     for (std::size_t i = 0; i < capture.rows(); ++i) {
         Frame sync;
-        sync.id = kSync;
+        sync.id = map.sync->id;
         sync.time_ns = std::llround(capture.time_s[i] * 1e9);
         Frame tpdo;
-        tpdo.id = kTpdo, tpdo.length = 8, tpdo.time_ns = sync.time_ns + kAnswer_ns;
-        put(kEnabled, 0, 2, tpdo);
-        put(rounded(capture.position[i] / scales.position_per_count,
-                    std::numeric_limits<std::int32_t>::min(),
-                    std::numeric_limits<std::int32_t>::max(), "a position"),
-            2, 4, tpdo);
-        put(rounded(1000 * capture.torque_ref[i] / scales.rated_torque,
-                    std::numeric_limits<std::int16_t>::min(),
-                    std::numeric_limits<std::int16_t>::max(), "a torque"),
-            6, 2, tpdo);
+        tpdo.id = position.frame.id, tpdo.length = 8, tpdo.time_ns = sync.time_ns + kAnswer_ns;
+        put_raw({"", position.frame, 0, 16}, kEnabled, tpdo);
+        put_raw(position, rounded(capture.position[i] / scales.position_per_count, position), tpdo);
+        put_raw(torque, rounded(1000 * capture.torque_ref[i] / scales.rated_torque, torque), tpdo);
         for (const Frame* frame : {&sync, &tpdo})
             out += format_candump(*frame, "can0") + "\n";
     }

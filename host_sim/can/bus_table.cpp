@@ -38,16 +38,16 @@ std::vector<double> device_times(const std::vector<std::int64_t>& ticks, const F
 } // namespace
 
 BusTable::BusTable(FrameMap map) : map_(std::move(map)) {
-    const auto list = [&](FrameId id) -> Arrivals& {
-        if (Arrivals* known = find(id)) return *known;
-        arrivals_.emplace_back();
-        arrivals_.back().id = id;
-        return arrivals_.back();
+    const auto list = [&](const Field& field) -> Arrivals& {
+        if (!find(field.frame)) arrivals_.emplace_back().id = field.frame;
+        Arrivals& known = *find(field.frame);
+        known.bytes = std::max(known.bytes, bytes_needed(field));
+        return known;
     };
     for (std::size_t i = 0; i < map_.signals.size(); ++i)
-        list(map_.signals[i].field.frame).signals.push_back(i);
-    if (map_.counter) list(map_.counter->frame);
-    if (map_.device_time) list(map_.device_time->frame);
+        list(map_.signals[i].field).signals.push_back(i);
+    if (map_.counter) list(*map_.counter);
+    if (map_.device_time) list(*map_.device_time);
     for (Arrivals& a : arrivals_)
         a.values.resize(a.signals.size());
 }
@@ -67,12 +67,7 @@ void BusTable::add(const Frame& frame) {
     if (map_.sync && *map_.sync == id) sync_s_.push_back(time_s);
     Arrivals* a = find(id);
     if (!a) return;
-    int needed = 0;
-    for (std::size_t i : a->signals)
-        needed = std::max(needed, bytes_needed(map_.signals[i].field));
-    for (const auto* field : {&map_.counter, &map_.device_time})
-        if (holds(*field, id)) needed = std::max(needed, bytes_needed(**field));
-    if (frame.length < needed) {
+    if (frame.length < a->bytes) {
         ++short_;
         return;
     }

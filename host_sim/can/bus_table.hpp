@@ -20,6 +20,7 @@ struct BusReport {
     long reordered = 0;    // after one that was sent later (seen by a counter or a device time)
     long short_frames = 0; // too few bytes for the map
     long errors = 0;       // error frames of the bus
+    long dropped = 0;      // that the logger says it missed
     double period_s = 0;
     double jitter_s = 0; // rms of the arrivals about the fitted clock
     std::string clock;   // what gave the instants: "SYNC", "counter", "device time", "arrival"
@@ -38,6 +39,7 @@ class BusTable {
   private:
     struct Arrivals {
         FrameId id;
+        int bytes = 0;                    // a frame must have
         std::vector<std::size_t> signals; // which of the map's it holds
         std::vector<double> time_s;
         std::vector<long> before;                // SYNC frames before it

@@ -104,13 +104,6 @@ void read_bus(const TomlView& bus, FrameMap& map) {
     map.interface = bus.text_or("interface", "");
 }
 
-void read_metadata(const TomlView& table, FrameMap& map) {
-    for (const std::string& key : table.keys()) {
-        const toml::node& node = *table.raw().get(key);
-        map.metadata[key] = node.is_string() ? table.text(key) : format_number(table.number(key));
-    }
-}
-
 std::string suffix_of(const std::string& unit) {
     static const std::map<std::string, std::string> known = {
         {"Nm", "_Nm"},       {"N·m", "_Nm"},      {"mNm", "_mNm"},           {"N", "_N"},
@@ -186,7 +179,7 @@ FrameMap read_frame_map(const std::string& path) {
             map.signals.push_back(read_signal(signals.table(name), name));
     }
     if (root.has("bus")) read_bus(root.table("bus"), map);
-    if (root.has("metadata")) read_metadata(root.table("metadata"), map);
+    if (root.has("metadata")) map.metadata = root.table("metadata").as_texts();
     check_map(map);
     return map;
 }

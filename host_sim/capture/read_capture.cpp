@@ -20,7 +20,8 @@ Capture read_capture(const std::string& path, const CaptureScales& scales, const
     if (ending == ".mat") return assemble(read_mat(path, map), scales);
     const std::string text = read_file(path); // a missing file is said before a wrong ending
     if (ending != ".csv")
-        throw FileError(path, 0, "the ending says nothing about the format; expected .csv or .mat");
+        throw FileError(path, 0,
+                        "the ending says nothing about the format; expected .csv, .mat or .log");
     return assemble(read_csv(text, path, map), scales);
 }
 

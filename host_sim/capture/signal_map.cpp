@@ -43,19 +43,6 @@ SignalMap::Signal read_signal(const TomlView& table) {
     return signal;
 }
 
-void read_metadata(const TomlView& table, SignalMap& map) {
-    for (const auto& key : table.keys()) {
-        const toml::node& node = *table.raw().get(key);
-        if (node.is_string())
-            map.metadata[key] = node.value<std::string>().value();
-        else if (node.is_number())
-            map.metadata[key] = format_number(table.number(key));
-        else
-            table.fail(key,
-                       table.full(key) + " must be a string or a number, not " + kind_of(node));
-    }
-}
-
 } // namespace
 
 SignalMap read_signal_map(const std::string& path) {
@@ -72,7 +59,7 @@ SignalMap read_signal_map(const std::string& path) {
         map.signals[name] = read_signal(signals.table(name));
     }
     if (map.signals.empty()) signals.fail("[signals] is empty; expected [signals.time] and others");
-    if (root.has("metadata")) read_metadata(root.table("metadata"), map);
+    if (root.has("metadata")) map.metadata = root.table("metadata").as_texts();
     return map;
 }
 

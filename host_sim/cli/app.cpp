@@ -71,9 +71,9 @@ namespace {
 // Each stretch of a candump log without a gap is a capture of its own.
 std::vector<Capture> read_log(const std::string& path, const std::string& map,
                               const CaptureScales& scales) {
-    const can::FrameMap frames =
-        map.empty() ? can::map_of_cia402(1, 1, can::default_objects()) : can::read_frame_map(map);
-    return can::read_candump(path, frames, scales).captures;
+    if (map.empty())
+        throw UsageError(path + ": a candump log needs a map of its frames (--map FILE)");
+    return can::read_candump(path, can::read_frame_map(map), scales).captures;
 }
 
 std::vector<Capture> read_table(const std::string& path, const std::string& map,
@@ -98,8 +98,9 @@ std::vector<Capture> CaptureOptions::read_files(const std::vector<std::string>& 
     const CaptureScales scales = model ? scales_of(*model) : CaptureScales{};
     std::vector<Capture> out;
     for (const std::string& path : paths)
-        for (Capture& capture :
-             path.ends_with(".log") ? read_log(path, map, scales) : read_table(path, map, scales)) {
+        for (Capture& capture : lower_case(path).ends_with(".log")
+                                    ? read_log(path, map, scales)
+                                    : read_table(path, map, scales)) {
             if (model) refuse_other_motion(capture, *model, path);
             out.push_back(std::move(capture));
         }

@@ -71,7 +71,7 @@ void add_add(CLI::App& app) {
             "its name, see: servoid effects; or a law: custom.NAME=LAW[;PARAMETER=START...]")
         ->required();
     verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
     verb->add_option("--out", o->out, "where the larger model is written (- for stdout)");
     add_capture_options(*verb, o->captures);
     add_output_options(*verb, o->output);

@@ -39,7 +39,7 @@ void add_compare(CLI::App& app) {
     CLI::App* verb = app.add_subcommand("compare", "how far model and measurement are apart, and "
                                                    "where");
     verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
     add_capture_options(*verb, o->captures);
     add_output_options(*verb, o->output);
     add_examples(*verb, "  servoid compare model.toml run.csv\n"

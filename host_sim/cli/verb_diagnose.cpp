@@ -247,7 +247,7 @@ void add_diagnose(CLI::App& app) {
     auto o = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("diagnose", "which physical effect is missing");
     verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
     add_capture_options(*verb, o->captures);
     add_output_options(*verb, o->output);
     add_examples(*verb, "  servoid diagnose model.toml run.csv\n"
@@ -260,7 +260,7 @@ void add_refine(CLI::App& app) {
     CLI::App* verb =
         app.add_subcommand("refine", "diagnose and add until nothing more is justified");
     verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat)")->required();
+    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
     verb->add_option("--validate", o->validate, "captures that are never fitted");
     verb->add_option("--out", o->out, "where the refined model is written (- for stdout)");
     add_capture_options(*verb, o->captures);

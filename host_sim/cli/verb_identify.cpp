@@ -28,7 +28,8 @@ void add_identify(CLI::App& app) {
     auto o = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand(
         "identify", "inertia, viscous friction and constant torque, by the firmware core itself");
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat) of a periodic move")
+    verb->add_option("captures", o->captures.files,
+                     "captures (.csv, .mat, .log) of a periodic move")
         ->required();
     verb->add_option("--map", o->captures.map, "TOML file that names foreign columns");
     add_identify_options(*verb, o->identify);

@@ -120,6 +120,20 @@ TomlView TomlView::table(const std::string& key) const {
     return {*found.as_table(), file_, full(key)};
 }
 
+std::map<std::string, std::string> TomlView::as_texts() const {
+    std::map<std::string, std::string> out;
+    for (const std::string& key : keys()) {
+        const toml::node& value = node(key);
+        if (value.is_string())
+            out[key] = text(key);
+        else if (value.is_number())
+            out[key] = format_number(number(key));
+        else
+            fail(key, full(key) + " must be a string or a number, not " + kind_of(value));
+    }
+    return out;
+}
+
 void TomlView::allow_only(const std::vector<std::string>& known) const {
     for (const auto& key : keys())
         if (std::find(known.begin(), known.end(), key) == known.end())

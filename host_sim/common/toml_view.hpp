@@ -3,6 +3,7 @@
 
 #include "common/toml.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ class TomlView {
     std::string text_or(const std::string& key, const std::string& fallback) const;
     std::vector<std::string> texts(const std::string& key) const; // empty where there is no key
     TomlView table(const std::string& key) const;
+    std::map<std::string, std::string> as_texts() const; // all of it: strings, and numbers as text
 
     // Throws where the table has a key that is not in the list.
     void allow_only(const std::vector<std::string>& known) const;

@@ -26,7 +26,8 @@ std::vector<double> strongest_lines_Hz(const Eigen::VectorXd& signal, double sam
 // noise up to the Nyquist frequency, few for a residual that repeats or drifts.
 double effective_count(const Eigen::VectorXd& residual);
 
-// What a likelihood counts at most: no law is exact enough for more evidence than this.
+// What a likelihood counts at most. Laws are fitted to a motion that was measured and smoothed: two
+// that come near each other are told apart by more than the number of samples.
 constexpr double kMostCount = 150;
 
 } // namespace servoid

@@ -123,7 +123,7 @@ void describe(Candidate& c, const Effect& effect, const FitResult& before, Assem
         c.sound = true;
         c.note = "how far it gives way shows, its frequencies do not: move up to them";
     }
-    if (!c.fit.converged && c.sound) c.note = "the fit met its bound on iterations";
+    if (!c.fit.converged && c.note.empty()) c.note = "the fit met its bound on iterations";
 }
 
 Candidate try_effect(const FitResult& before, const Effect& effect, Assembler& assembler) {

@@ -89,9 +89,12 @@ std::optional<Outside> compare_with(const EffectTerm& term, const Eigen::VectorX
 std::optional<Outside> outside_rival(const Diagnosis& d, const Candidate& candidate,
                                      Assembler& assembler) {
     std::optional<Outside> best;
+    std::vector<Eigen::VectorXd> artifacts = {d.before.artifact};
+    const Eigen::VectorXd& after = candidate.fit.artifact;
+    if (after.size() != artifacts[0].size() || after != artifacts[0]) artifacts.push_back(after);
     for (const EffectTerm& term : rivals_of(candidate.effect, d.before.model, assembler))
-        for (const auto* artifact : {&d.before.artifact, &candidate.fit.artifact}) {
-            const auto rival = compare_with(term, *artifact, d, candidate, assembler);
+        for (const Eigen::VectorXd& artifact : artifacts) {
+            const auto rival = compare_with(term, artifact, d, candidate, assembler);
             if (rival && rival->z > (best ? best->z : kWorse)) best = rival;
         }
     return best;

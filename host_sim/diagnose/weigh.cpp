@@ -22,9 +22,6 @@ constexpr double kSameAsRich = 1.3;        // of the same but for instants near 
 constexpr double kPerBound = 4;            // price, as a logarithm
 constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise does that
 
-// Laws are fitted to a motion that was measured and smoothed: two that come this near each other
-// are told apart by more than the number of samples.
-
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
 // Errors are told apart down to `least`, and none is smaller for noise that a lag or a limit took.
 double log_evidence(const FitResult& fit, double error, double count, double least) {
