@@ -15,7 +15,7 @@ static int32_t torque_limit(const sid_identify_config_t* config) {
     return (config->torque_limit_pu_q20 != 0) ? config->torque_limit_pu_q20 : SID_SAMPLE_LIMIT;
 }
 
-static sid_excite_config_t guards_of(const sid_identify_config_t* config) {
+sid_excite_config_t sid_identify_guards(const sid_identify_config_t* config) {
     sid_excite_config_t out;
     out.position_bits = (uint8_t)or_default(config->position_bits, 32);
     out.position_shift = config->position_shift;
@@ -78,7 +78,7 @@ static bool is_plan_valid(const sid_identify_config_t* config) {
 }
 
 bool sid_identify_init(sid_identify_t* session, const sid_identify_config_t* config) {
-    const sid_excite_config_t guards = guards_of(config);
+    const sid_excite_config_t guards = sid_identify_guards(config);
     memset(session, 0, sizeof(*session));
     session->config = config;
     session->window_start = WINDOW_NEVER;

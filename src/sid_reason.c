@@ -8,6 +8,7 @@ const char* sid_reason_text(sid_reason_t reason) {
                                                        "overflow",         "ill-conditioned",
                                                        "negative inertia", "aborted: stroke",
                                                        "aborted: torque",  "aborted by user",
-                                                       "encoder stuck",    "encoder jump"};
+                                                       "encoder stuck",    "encoder jump",
+                                                       "master lost",      "reference starved"};
     return ((unsigned)reason < (unsigned)SID_REASON_COUNT) ? text[reason] : "unknown";
 }

@@ -3,6 +3,7 @@
 #define SERVOID_SERVOID_H
 
 #include "servoid/sid_bin.h"
+#include "servoid/sid_can.h"
 #include "servoid/sid_excite.h"
 #include "servoid/sid_fixed.h"
 #include "servoid/sid_friction.h"
@@ -10,8 +11,12 @@
 #include "servoid/sid_identify.h"
 #include "servoid/sid_inertia.h"
 #include "servoid/sid_loop.h"
+#include "servoid/sid_node.h"
 #include "servoid/sid_osc.h"
 #include "servoid/sid_scaled.h"
+#include "servoid/sid_sdo.h"
+#include "servoid/sid_stream.h"
+#include "servoid/sid_telemetry.h"
 #include "servoid/sid_version.h"
 
 #endif

@@ -72,6 +72,9 @@ static inline int32_t sid_select(int32_t mask, int32_t a, int32_t b) {
     return b ^ ((a ^ b) & mask);
 }
 
+/// -1 if x is not 0, else 0.
+static inline int32_t sid_nonzero(uint32_t x) { return (int32_t)(x | (0U - x)) >> 31; }
+
 /// Sign bit set if and only if |x| > limit, for limit in [0, 2^30]; the other bits mean nothing.
 static inline int32_t sid_beyond(int32_t x, int32_t limit) {
     return sid_add_wrap(limit, x) | sid_sub_wrap(limit, x);

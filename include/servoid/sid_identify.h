@@ -110,6 +110,9 @@ typedef struct {
 
 SID_STATIC_ASSERT(sizeof(sid_identify_t) <= 512, session_fits_512_bytes);
 
+/// The guards that a configuration asks for, with the defaults filled in.
+sid_excite_config_t sid_identify_guards(const sid_identify_config_t* config);
+
 /// Checks the configuration, marks every result SID_NOT_RUN. The axis counts as held.
 bool sid_identify_init(sid_identify_t* session, const sid_identify_config_t* config);
 

@@ -40,6 +40,8 @@ typedef enum {
     SID_ABORTED_BY_USER,
     SID_ENCODER_STUCK,
     SID_ENCODER_JUMP,
+    SID_MASTER_LOST,    ///< no heartbeat of the master within its time (sid_node.h)
+    SID_STREAM_STARVED, ///< a streamed reference had not come in time (sid_stream.h)
     SID_REASON_COUNT
 } sid_reason_t;
 
