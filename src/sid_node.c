@@ -24,6 +24,18 @@ void sid_node_set_times(sid_node_t* node) {
     node->heartbeat_due = node->telemetry.written + node->heartbeat_period;
 }
 
+static sid_run_t run_of(const sid_node_t* node, uint32_t position_raw) {
+    const uint32_t bits = node->identify.position_bits;
+    sid_run_t run;
+    run.start_tick = 0;
+    run.end_tick = 0;
+    run.start_raw = position_raw;
+    run.position_bits = (uint8_t)((bits != 0U) ? bits : 32U);
+    run.position_shift = node->identify.position_shift;
+    run.torque_timing = (uint8_t)node->identify.torque_timing;
+    return run;
+}
+
 bool sid_node_init(sid_node_t* node, const sid_node_config_t* config) {
     const sid_excite_config_t guards = sid_identify_guards(&config->identify);
     memset(node, 0, sizeof(*node));
@@ -35,6 +47,7 @@ bool sid_node_init(sid_node_t* node, const sid_node_config_t* config) {
     node->master_timeout_ms = config->master_timeout_ms;
     node->heartbeat_ms = config->heartbeat_ms;
     node->planned = SID_RUN_IDENTIFY;
+    node->run = run_of(node, 0);
     sid_node_set_times(node);
     return sid_telemetry_init(&node->telemetry, config->rows, config->row_count) &&
            sid_stream_init(&node->stream, config->references, config->reference_count, &guards) &&
@@ -136,11 +149,7 @@ static void watch_from_now(sid_node_t* node) {
 }
 
 static void hand_over(sid_node_t* node, uint32_t position_raw) {
-    const uint32_t bits = node->identify.position_bits;
-    node->next.start_raw = position_raw;
-    node->next.position_bits = (uint8_t)((bits != 0U) ? bits : 32U);
-    node->next.position_shift = node->identify.position_shift;
-    node->next.torque_timing = (uint8_t)node->identify.torque_timing;
+    node->next = run_of(node, position_raw);
     node->state = SID_STATE_MEASURING;
     node->reason = SID_NOT_RUN;
     node->run_kind = node->planned;
@@ -154,8 +163,11 @@ uint32_t sid_node_start(sid_node_t* node, uint32_t run_number) {
     if ((run_number != 0U) && (run_number == node->run_number)) {
         return SID_SDO_OK; // the answer to the first one was lost
     }
-    if ((run_number == 0U) || (node->telemetry.written == 0U)) {
+    if (run_number == 0U) {
         return SID_SDO_RANGE;
+    }
+    if (node->telemetry.written == 0U) {
+        return SID_SDO_STATE; // no sample yet
     }
     const uint32_t position_raw = last_position(node);
     hold(node);
@@ -188,6 +200,8 @@ static sid_reason_t reason_of_stream(const sid_node_t* node) {
 
 static void end_run(sid_node_t* node, sid_state_t state, sid_reason_t reason) {
     node->watched = 0;
+    node->run.end_tick = node->telemetry.written;
+    node->describe = true;
     node->state = (uint8_t)state;
     node->reason = (uint8_t)reason;
     if (node->user_abort) {

@@ -84,9 +84,8 @@ void sid_telemetry_describe(sid_telemetry_t* telemetry, const sid_axis_t* axis,
     sid_put_u32(&data[12], (uint32_t)(axis->sample_rate_uHz >> 32));
     put_scaled(axis->rated_torque, &data[16], &data[20]);
     put_scaled(axis->count, &data[24], &data[22]);
-    sid_put_u32(&data[28], axis->encoder_increments);
-    sid_put_u32(&data[32], axis->encoder_revolutions);
-    sid_put_u32(&data[36], run->start_tick);
+    sid_put_u32(&data[32], run->start_tick);
+    sid_put_u32(&data[36], run->end_tick);
     sid_put_u32(&data[40], run->start_raw);
     data[44] = run->position_bits;
     data[45] = run->position_shift;

@@ -21,6 +21,7 @@ struct BusReport {
     long short_frames = 0; // too few bytes for the map
     long errors = 0;       // error frames of the bus
     long dropped = 0;      // that the logger says it missed
+    long resets = 0;       // of the drive, while it was listened to
     double period_s = 0;
     double jitter_s = 0; // rms of the arrivals about the fitted clock
     std::string clock;   // what gave the instants: "SYNC", "counter", "device time", "arrival"

@@ -67,6 +67,8 @@ void add_diagnose(CLI::App& app);
 void add_refine(CLI::App& app);
 void add_reveal(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_drive(CLI::App& app);
+void add_command(CLI::App& app);
 
 // Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
 int run(int argc, char** argv);

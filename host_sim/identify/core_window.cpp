@@ -18,8 +18,6 @@ int32_t rounded(double value) {
 
 } // namespace
 
-double to_double(sid_scaled_t number) { return std::ldexp(number.mantissa, number.exponent); }
-
 CoreScale choose_scale(const Eigen::VectorXd& torque, const Eigen::VectorXd& position,
                        double rated_torque, double position_quantum, double sample_time_s) {
     const double top = torque.cwiseAbs().maxCoeff();

@@ -1,6 +1,7 @@
 // The firmware core's bin run over samples of a host capture.
 #pragma once
 
+#include "common/scaled.hpp"
 #include "servoid/sid_inertia.h"
 
 #include <Eigen/Core>
@@ -14,8 +15,6 @@ struct CoreScale {
     double position_per_count = 1; // rad or m
     double sample_time_s = 1;
 };
-
-double to_double(sid_scaled_t number);
 
 // The smallest rated torque and count that the window's signals fit into. A known rated torque and
 // encoder step are used where the signals fit them, so that the core sees what a drive would see.

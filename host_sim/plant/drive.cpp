@@ -1,6 +1,7 @@
 #include "plant/drive.hpp"
 
 #include "common/error.hpp"
+#include "common/scaled.hpp"
 #include "effects/catalogue.hpp"
 
 #include <algorithm>
@@ -33,19 +34,13 @@ double full_torque_of(const Model& model, const DriveOptions& options) {
     return controller_of(model).speed_gain * controller_of(model).position_gain_per_s;
 }
 
-sid_scaled_t scaled(double value) {
-    int exponent = 0;
-    const double mantissa = std::frexp(value, &exponent);
-    return sid_scaled_make(std::llround(std::ldexp(mantissa, 62)), exponent - 62);
-}
-
 sid_loop_config_t loop_config(const Model& model, double per_count, double full_torque) {
     const Controller& c = controller_of(model);
     sid_loop_config_t config{};
-    config.position_gain = scaled(c.position_gain_per_s * c.sample_time_s);
-    config.speed_gain = scaled(c.speed_gain * per_count / c.sample_time_s / full_torque);
+    config.position_gain = to_scaled(c.position_gain_per_s * c.sample_time_s);
+    config.speed_gain = to_scaled(c.speed_gain * per_count / c.sample_time_s / full_torque);
     config.integral_gain =
-        scaled(c.type == Controller::Type::p_pi ? c.sample_time_s / c.integral_time_s : 0);
+        to_scaled(c.type == Controller::Type::p_pi ? c.sample_time_s / c.integral_time_s : 0);
     const double limit = model.drive.torque_limit > 0 ? model.drive.torque_limit / full_torque : 8;
     config.torque_limit_pu_q20 =
         int32_t(std::min(std::lround(limit * kTorqueUnits), (1L << 23) - 1));

@@ -33,6 +33,7 @@ sid_identify_config_t config_of(const SessionOptions& options,
     config.ramp_periods_q8 = q8(options.ramp_periods);
     config.settle_periods_q8 = q8(options.settle_periods);
     config.window_periods_q8 = q8(options.window_periods);
+    config.windows = uint8_t(options.windows);
     config.method = options.method;
     config.torque_timing = SID_TORQUE_HELD_LAST;
     return config;
@@ -45,6 +46,9 @@ SessionResult in_si(const sid_result_t& r, const SimulatedDrive& drive, double f
     out.frequency_Hz = frequency_Hz;
     out.inertia = to_double(r.inertia) * full * h * h / c;
     out.viscous = to_double(r.viscous) * full * h / c;
+    out.inertia_std = to_double(r.inertia_std) * full * h * h / c;
+    out.viscous_std = to_double(r.viscous_std) * full * h / c;
+    out.std_known = r.std_known;
     out.position_amplitude = to_double(r.position_amplitude) * c;
     out.torque_amplitude = to_double(r.torque_amplitude) * full;
     out.reason = sid_reason_t(r.reason);

@@ -18,12 +18,15 @@ struct PlannedSine {
 struct SessionOptions {
     double settle_periods = 8, window_periods = 2; // the paper's: 8th to 10th period
     double ramp_periods = 0;                       // the paper's: a sine from rest
+    int windows = 1; // a leg; from two on there is a standard deviation
     sid_bin_method_t method = SID_BIN_CUBIC;
 };
 
 // One frequency's answer in SI.
 struct SessionResult {
     double frequency_Hz = 0, inertia = 0, viscous = 0;
+    double inertia_std = 0, viscous_std = 0; // of the mean over the windows
+    bool std_known = false;
     double position_amplitude = 0, torque_amplitude = 0;
     sid_reason_t reason = SID_NOT_RUN;
 };

@@ -59,7 +59,8 @@ typedef struct {
 
 /// What belongs to one run.
 typedef struct {
-    uint32_t start_tick; ///< row at which it began
+    uint32_t start_tick; ///< row at which it began; 0: none has yet
+    uint32_t end_tick;   ///< row at which it was seen to be over; 0: it is not
     uint32_t start_raw;  ///< encoder word there: the reference's zero
     uint8_t position_bits;
     uint8_t position_shift;

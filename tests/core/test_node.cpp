@@ -145,11 +145,15 @@ TEST(Node, ADescriptionComesFirstAndAgain) {
     d.sent.clear();
     d.plan_one(10, 0.1, 1);
     d.run_out();
+    d.background();
     int descriptions = 0, frames = 0, most = 0;
+    uint32_t end = 0;
     for (const sid_can_frame_t& f : d.sent) {
         if (f.id != SID_ID_TELEMETRY + 5 || f.data[0] == SID_FRAME_PROGRESS) continue;
         if (f.data[0] == SID_FRAME_DESCRIPTION) {
-            EXPECT_EQ(sid_get_u32(&f.data[36]), d.node.run.start_tick);
+            EXPECT_EQ(sid_get_u32(&f.data[32]), d.node.run.start_tick);
+            EXPECT_EQ(f.data[44], 17) << "bits";
+            end = sid_get_u32(&f.data[36]);
             descriptions++, frames = 0;
         } else if (descriptions == 0) {
             EXPECT_LE(sid_get_u32(&f.data[4]) + f.data[1], d.node.run.start_tick + 1);
@@ -158,6 +162,8 @@ TEST(Node, ADescriptionComesFirstAndAgain) {
     }
     EXPECT_GE(descriptions, 2);
     EXPECT_LE(most, 1024);
+    EXPECT_EQ(end, d.node.run.end_tick) << "the last one tells the end";
+    EXPECT_GT(end, d.node.run.start_tick);
 }
 
 TEST(Node, AStreamedMoveIsPlayedAndTold) {

@@ -52,14 +52,14 @@ TEST(Telemetry, ADescriptionIsTheBytesOfTheSpecification) {
     axis.sample_rate_uHz = 8000000000U; // 0x0000000'1DCD65000
     axis.rated_torque = {0x51893A2B, -31};
     axis.count = {0x6487ED51, -45};
-    axis.encoder_increments = 131072, axis.encoder_revolutions = 1, axis.linear = true;
-    const sid_run_t run = {0x01020304U, 0x0A0B0C0DU, 17, 2, SID_TORQUE_HELD_LAST};
+    axis.linear = true;
+    const sid_run_t run = {0x01020304U, 0x05060708U, 0x0A0B0C0DU, 17, 2, SID_TORQUE_HELD_LAST};
     sid_can_frame_t frame;
     sid_telemetry_describe(&ring.telemetry, &axis, &run, &frame);
     const std::vector<uint8_t> expected = {
         2,    1,    0,    0,    0,    0,    0,    0,    0x00, 0x50, 0xD6, 0xDC, 0x01, 0, 0, 0,
-        0x2B, 0x3A, 0x89, 0x51, 0xE1, 0xFF, 0xD3, 0xFF, 0x51, 0xED, 0x87, 0x64, 0,    0, 2, 0,
-        1,    0,    0,    0,    4,    3,    2,    1,    0x0D, 0x0C, 0x0B, 0x0A, 17,   2, 2, 1};
+        0x2B, 0x3A, 0x89, 0x51, 0xE1, 0xFF, 0xD3, 0xFF, 0x51, 0xED, 0x87, 0x64, 0,    0, 0, 0,
+        4,    3,    2,    1,    8,    7,    6,    5,    0x0D, 0x0C, 0x0B, 0x0A, 17,   2, 2, 1};
     EXPECT_EQ(bytes(frame), expected);
 }
 

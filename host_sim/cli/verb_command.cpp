@@ -1,0 +1,349 @@
+// servoid command: the other end of a drive on the bus. Runs sessions and moves on it, and keeps
+// what it tells.
+#include "can/socketcan.hpp"
+#include "cli/app.hpp"
+#include "cli/bus_output.hpp"
+#include "cli/end_on_signal.hpp"
+#include "cli/identify_output.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "diagnose/diagnose.hpp"
+#include "node/master.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+namespace servoid::cli {
+
+namespace {
+
+struct Options {
+    Output output;
+    LinkOptions link;
+    std::string interface, out;
+    // identify
+    std::vector<double> frequencies{50};
+    double amplitude = 0;
+    SessionOptions session;
+    // move, next
+    std::string experiment, model;
+    CaptureOptions captures;
+};
+
+can::SocketCanOptions what_it_hears(const LinkOptions& link) {
+    can::SocketCanOptions out;
+    out.listen_to = {can::telemetry_id(link.node),  can::answer_id(link.node),
+                     can::heartbeat_id(link.node),  can::request_id(link.node),
+                     can::references_id(link.node), can::heartbeat_id(link.master)};
+    return out;
+}
+
+OnProgress on_terminal(const Output& output) {
+    if (output.quiet || !isatty(STDERR_FILENO)) return {};
+    return [](const RunProgress& p) {
+        std::cerr << fmt::format("\r{:3.0f} %  {}, {} samples   ", 100 * p.share, p.what, p.samples)
+                  << std::flush;
+    };
+}
+
+// The bus, the link and what they went through, told in the same words by every run.
+struct Session {
+    explicit Session(const Options& o)
+        : bus(o.interface, what_it_hears(o.link)), link(bus, with_signals(o.link)) {}
+    static LinkOptions with_signals(LinkOptions link) {
+        link.cancelled = [] { return EndOnSignal::wanted().load(); };
+        return link;
+    }
+    EndOnSignal signals;
+    can::SocketCan bus;
+    Link link;
+};
+
+Json link_json(const Session& s) {
+    const LinkReport& r = s.link.report();
+    const can::BusHealth& h = s.bus.health();
+    return {{"requests", r.requests},
+            {"repeated_requests", r.repeated_requests},
+            {"stray_answers", r.stray_answers},
+            {"foreign_requests", r.foreign_requests},
+            {"error_frames", h.error_frames},
+            {"bus_off", h.bus_off},
+            {"interface_down", h.interface_down},
+            {"dropped", h.dropped},
+            {"not_sent", h.not_sent}};
+}
+
+void print_link(const Output& out, const Session& s) {
+    const LinkReport& r = s.link.report();
+    if (r.repeated_requests > 0)
+        out.line(fmt::format("{} of {} requests were sent again", r.repeated_requests, r.requests));
+    if (r.foreign_requests > 0)
+        out.line(fmt::format("another master talks to this node: {} frames", r.foreign_requests));
+}
+
+// Telemetry as captures; nothing where too little came.
+std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
+    try {
+        can::BusCaptures out = s.link.telemetry().captures(o.interface);
+        out.report.dropped = s.bus.health().dropped;
+        return out;
+    } catch (const Error& e) {
+        o.output.note(std::string("no capture: ") + e.what());
+        return std::nullopt;
+    }
+}
+
+// The longest stretch goes into the file.
+void keep(const std::optional<can::BusCaptures>& all, const Options& o) {
+    if (!all) return;
+    print_bus(o.output, *all);
+    if (o.out.empty()) return;
+    const Capture& capture = longest(all->captures);
+    write_file(o.out, format_capture_csv(capture));
+    o.output.line(fmt::format("wrote {}: {} samples", o.out, capture.rows()));
+}
+
+// After the capture is safe: a fault of the drive or the bus is exit 5, data that cannot answer 4.
+void refuse_if_not_whole(const RunEnd& end) {
+    if (end.fault.empty()) return;
+    throw can::BusError("the drive ended the run: " + end.fault);
+}
+
+void refuse_if_no_answer(const std::vector<SessionResult>& results) {
+    for (const SessionResult& r : results)
+        if (r.reason != SID_OK)
+            throw Refusal(
+                fmt::format("at {:.4g} Hz: {}", r.frequency_Hz, sid_reason_text(r.reason)),
+                "another frequency or a larger amplitude");
+}
+
+// The drive's own answer, with the deviation that the capture of the same move gives where the
+// drive has measured one window only.
+std::vector<Identification> as_identifications(const std::vector<SessionResult>& results,
+                                               const std::vector<Identification>& of_capture,
+                                               const SessionOptions& session) {
+    std::vector<Identification> out;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const SessionResult& r = results[i];
+        Identification one;
+        if (i < of_capture.size()) one = of_capture[i];
+        one.frequency_Hz = r.frequency_Hz, one.reason = r.reason, one.coulomb_leak = 0;
+        one.first_period = session.ramp_periods + session.settle_periods;
+        one.last_period = one.first_period + session.window_periods * session.windows;
+        one.inertia.value = r.inertia, one.viscous.value = r.viscous;
+        one.position_amplitude = r.position_amplitude, one.torque_amplitude = r.torque_amplitude;
+        if (r.std_known) one.inertia.std = r.inertia_std, one.viscous.std = r.viscous_std;
+        if (!r.std_known && i >= of_capture.size())
+            one.inertia.std = one.viscous.std = one.constant_torque.std = unknown;
+        out.push_back(one);
+    }
+    return out;
+}
+
+// By the host, from the telemetry: only where one stretch holds the whole session of one frequency.
+std::vector<Identification> from_telemetry(const std::optional<can::BusCaptures>& all,
+                                           const Options& o) {
+    if (!all || all->captures.size() != 1 || o.frequencies.size() != 1) return {};
+    IdentifyOptions options;
+    options.frequencies_Hz = o.frequencies, options.method = o.session.method;
+    options.first_period = o.session.ramp_periods + o.session.settle_periods;
+    options.last_period = *options.first_period + o.session.window_periods;
+    try {
+        return identify(all->captures.front(), options);
+    } catch (const Refusal& e) {
+        o.output.note("from the telemetry: " + e.reason());
+        return {};
+    }
+}
+
+void run_identify(const Options& o) {
+    Session s(o);
+    Master master(s.link);
+    std::vector<PlannedSine> plan;
+    for (double f : o.frequencies)
+        plan.push_back({f, o.amplitude});
+    const RunEnd end = master.identify(plan, o.session, on_terminal(o.output));
+    std::vector<SessionResult> results;
+    if (end.fault.empty() || is_refusal(end.status.reason)) results = master.results(plan);
+    master.finish();
+    const auto all = heard(s, o);
+    keep(all, o);
+    if (is_refusal(end.status.reason)) refuse_if_no_answer(results);
+    refuse_if_not_whole(end);
+    refuse_if_no_answer(results);
+    const auto own = as_identifications(results, from_telemetry(all, o), o.session);
+    const Capture none = [&] {
+        Capture c;
+        c.linear = master.scales().linear;
+        return c;
+    }();
+    const Capture& capture = all ? longest(all->captures) : none;
+    Json json = identification_json(own, capture);
+    if (all) json["bus"] = bus_json(all->report);
+    json["link"] = link_json(s);
+    o.output.print_json(json);
+    print_identification(o.output, own, capture);
+    print_link(o.output, s);
+}
+
+Json move_json(const Options& o, const RunEnd& end, const std::optional<can::BusCaptures>& all,
+               const Session& s) {
+    Json json = {{"schema", "servoid.move/1"},
+                 {"experiment", o.experiment},
+                 {"status", end.fault.empty() ? "ok" : end.fault},
+                 {"out", o.out.empty() ? Json(nullptr) : Json(o.out)},
+                 {"samples", all ? longest(all->captures).rows() : 0}};
+    if (all) json["bus"] = bus_json(all->report);
+    json["link"] = link_json(s);
+    return json;
+}
+
+// A half cosine from where the axis stands to where the experiment begins, no faster than the
+// experiment itself is at most.
+Experiment approach(const Experiment& experiment, double from, double to) {
+    double fastest = 0;
+    const double h = experiment.duration_s / 1000;
+    for (int i = 1; i <= 1000; ++i)
+        fastest = std::max(
+            fastest,
+            std::fabs(experiment.position_ref(i * h) - experiment.position_ref((i - 1) * h)) / h);
+    Experiment out;
+    const double pi = std::acos(-1.0), way = to - from;
+    out.text = "approach";
+    out.duration_s = std::max(0.2, pi / 2 * std::fabs(way) / std::max(fastest / 2, 1e-9));
+    out.position_ref = [=, d = out.duration_s](double t) {
+        return from + way * (1 - std::cos(pi * std::min(1.0, t / d))) / 2;
+    };
+    return out;
+}
+
+void run_move(const Options& o) {
+    const Experiment experiment = parse_experiment(o.experiment);
+    Session s(o);
+    Master master(s.link);
+    const double stands = master.position();
+    if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
+        o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
+        refuse_if_not_whole(
+            master.move(approach(experiment, stands, experiment.start), on_terminal(o.output)));
+        s.link.wait(0.5);
+    }
+    const RunEnd end = master.move(experiment, on_terminal(o.output));
+    master.finish();
+    const auto all = heard(s, o);
+    o.output.print_json(move_json(o, end, all, s));
+    keep(all, o);
+    print_link(o.output, s);
+    refuse_if_not_whole(end);
+}
+
+// What `diagnose` would record next, recorded.
+void run_next(Options o) {
+    const Model model = read_model(o.model);
+    const std::vector<PreparedMotion> motions =
+        prepare_all(o.captures.read(&model), o.captures.motion());
+    const Diagnosis d = diagnose(model, motions);
+    o.output.note(std::string(verdict_name(d.verdict)) + ": " + d.advice);
+    if (!d.next)
+        throw Refusal("the diagnosis proposes no move: " + std::string(verdict_name(d.verdict)),
+                      "what its advice says");
+    o.experiment = d.next->experiment;
+    o.output.note("next: " + o.experiment + "; " + d.next->reason);
+    run_move(o);
+}
+
+void run_status(const Options& o) {
+    Session s(o);
+    const auto read = [&](std::uint8_t sub) { return s.link.read(0x2A02, sub); };
+    const auto reason = sid_reason_t(read(2));
+    static const char* const names[] = {"idle", "measuring", "stopping", "done", "aborted"};
+    const std::uint32_t state = read(1), owner = s.link.read(0x2A01, 1);
+    const std::string name = state < std::size(names) ? names[state] : "unknown";
+    o.output.print_json({{"schema", "servoid.status/1"},
+                         {"node", o.link.node},
+                         {"state", name},
+                         {"reason", sid_reason_text(reason)},
+                         {"claimed", owner != 0},
+                         {"tick", read(4)},
+                         {"telemetry_rows_lost", read(5)}});
+    o.output.line(fmt::format("node {}: {} ({}){}", o.link.node, name, sid_reason_text(reason),
+                              owner != 0 ? ", claimed by a master" : ""));
+}
+
+void run_abort(const Options& o) {
+    Session s(o);
+    s.link.write(0x2A01, 5, 1, 1);
+    o.output.print_json({{"schema", "servoid.abort/1"}, {"node", o.link.node}});
+    o.output.line(fmt::format("node {}: its axis is held", o.link.node));
+}
+
+void add_link_options(CLI::App& verb, Options& o) {
+    verb.add_option("--can", o.interface, "interface: can0, vcan0")->required();
+    verb.add_option("--node", o.link.node, "number of the drive (default 1)")
+        ->check(CLI::Range(1, 127));
+    verb.add_option("--master", o.link.master, "number of this master (default 127)")
+        ->check(CLI::Range(1, 127));
+    verb.add_option("--timeout", o.link.timeout_ms,
+                    "ms without our heartbeat after which the drive holds its axis (default 500)")
+        ->check(CLI::Range(20, 60000));
+    verb.add_flag("--free", o.link.free_running, "the drive is free-running: give it SYNC");
+    add_output_options(verb, o.output);
+}
+
+CLI::App* add_run(CLI::App& verb, const char* name, const char* what, Options& o) {
+    CLI::App* sub = verb.add_subcommand(name, what);
+    sub->fallthrough();
+    sub->add_option("--out", o.out, "write what was recorded as .csv");
+    return sub;
+}
+
+void add_identify_run(CLI::App& verb, const std::shared_ptr<Options>& o) {
+    CLI::App* sub = add_run(verb, "identify", "a session: inertia and viscous friction", *o);
+    sub->add_option("--amplitude", o->amplitude, "rad or m of the reference: this moves the axis")
+        ->required()
+        ->check(CLI::PositiveNumber);
+    sub->add_option("--frequency", o->frequencies, "Hz, one or more (default 50)")
+        ->check(CLI::PositiveNumber);
+    sub->add_option("--windows", o->session.windows, "at each frequency (default 1)")
+        ->check(CLI::Range(1, 8));
+    sub->add_option("--ramp", o->session.ramp_periods, "periods of a soft start (default 0)")
+        ->check(CLI::Range(0, 255));
+    sub->callback([o] { run_identify(*o); });
+}
+
+} // namespace
+
+void add_command(CLI::App& app) {
+    auto o = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("command", "run sessions and moves on a drive on the bus");
+    verb->require_subcommand(1);
+    add_link_options(*verb, *o);
+    add_identify_run(*verb, o);
+    CLI::App* move = add_run(*verb, "move", "any experiment, streamed", *o);
+    move->add_option("experiment", o->experiment, "as simulate --experiment")->required();
+    move->callback([o] { run_move(*o); });
+    CLI::App* next = add_run(*verb, "next", "the move that diagnose proposes", *o);
+    next->add_option("model", o->model, "model file (TOML)")->required();
+    next->add_option("captures", o->captures.files, "captures so far")->required();
+    add_capture_options(*next, o->captures);
+    next->callback([o] { run_next(*o); });
+    verb->add_subcommand("status", "what the drive does")->fallthrough()->callback([o] {
+        run_status(*o);
+    });
+    verb->add_subcommand("abort", "hold the axis now")->fallthrough()->callback([o] {
+        run_abort(*o);
+    });
+    add_examples(
+        *verb, "  servoid command --can can0 identify --amplitude 0.5 --frequency 50 --out a.csv\n"
+               "  servoid command --can can0 move trapezoid:stroke=6.28,velocity=40 --out b.csv\n"
+               "  servoid command --can can0 next model.toml b.csv --out c.csv\n"
+               "  servoid command --can can0 abort");
+}
+
+} // namespace servoid::cli

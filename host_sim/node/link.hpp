@@ -1,0 +1,84 @@
+// A master's link to one node: its objects, its telemetry, and the heartbeat that keeps it going.
+#pragma once
+
+#include "can/bus.hpp"
+#include "can/telemetry_table.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace servoid {
+
+struct LinkOptions {
+    int node = 1, master = 127;
+    int timeout_ms = 500; // without our heartbeat the drive holds its axis
+    int answer_ms = 200;  // for an answer; then the request is sent again
+    int tries = 5;
+    bool free_running = false; // the drive's time passes with our SYNC
+    std::function<bool()> cancelled = [] { return false; };
+};
+
+// The drive's answer to a request: no.
+class SdoAbort : public can::BusError {
+  public:
+    SdoAbort(std::uint32_t code, const std::string& what);
+    std::uint32_t code() const { return code_; }
+
+  private:
+    std::uint32_t code_;
+};
+constexpr std::uint32_t kNotNow = 0x08000022;
+
+// What went wrong on the way, and was mended.
+struct LinkReport {
+    long requests = 0, repeated_requests = 0;
+    long stray_answers = 0;    // to what we did not ask
+    long foreign_requests = 0; // somebody else talks to our node: a second master
+    long repeated_syncs = 0;
+};
+
+class Link {
+  public:
+    using Clock = std::chrono::steady_clock;
+    Link(can::Bus& bus, const LinkOptions& options);
+
+    // An object of up to four bytes. Asked again where no answer comes; throws BusError when the
+    // node stays silent, SdoAbort when it refuses.
+    std::uint32_t read(std::uint16_t index, std::uint8_t sub);
+    void write(std::uint16_t index, std::uint8_t sub, std::uint32_t value, int bytes);
+
+    // Listens, for `wait` of the machine's time, or for one SYNC of a free-running drive; sends
+    // the heartbeat when it is due.
+    void pump(std::chrono::milliseconds wait);
+    // So much of the drive's time, about.
+    void wait(double seconds);
+    void send(const can::Frame& frame) { bus_.send(frame); }
+
+    const can::TelemetryTable& telemetry() const { return table_; }
+    can::TelemetryTable& telemetry() { return table_; }
+    // The node has booted, or its time has begun anew, since the last call.
+    bool was_reset();
+    const LinkReport& report() const { return report_; }
+    const LinkOptions& options() const { return options_; }
+    const can::Bus& bus() const { return bus_; }
+
+  private:
+    void heartbeat();
+    void sync();
+    void take(const can::Frame& frame);
+    bool listen(Clock::time_point until, const std::function<bool()>& enough);
+    std::uint32_t request(const can::Frame& frame);
+
+    can::Bus& bus_;
+    LinkOptions options_;
+    can::TelemetryTable table_;
+    LinkReport report_;
+    Clock::time_point next_heartbeat_{};
+    std::optional<can::Frame> answer_;
+    long beats_ = 0, boots_ = 0; // of the node
+    long resets_seen_ = 0;
+};
+
+} // namespace servoid

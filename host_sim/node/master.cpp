@@ -1,0 +1,263 @@
+#include "node/master.hpp"
+
+#include "common/scaled.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace servoid {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::uint16_t kAxis = 0x2A00, kCommand = 0x2A01, kStatus = 0x2A02, kOptions = 0x2A03,
+                        kFrequency = 0x2A05, kAmplitude = 0x2A06, kResult = 0x2A10;
+constexpr int kVersion = 1;
+constexpr int kStalled = 400; // looks without any reference taken: two seconds
+constexpr std::uint32_t kReferencesInFrame = 14;
+// On the way to the drive at once: a tenth of a second at 8 kHz.
+constexpr std::uint32_t kInFlight = 64 * kReferencesInFrame;
+
+std::uint32_t token() {
+    std::random_device random;
+    return std::max<std::uint32_t>(1, std::uint32_t(random()));
+}
+
+std::uint32_t q8(double periods) { return std::uint32_t(std::lround(periods * 256)); }
+
+can::Frame reference_frame(int node, const std::vector<std::int32_t>& references,
+                           std::uint32_t first, std::uint32_t count) {
+    can::Frame out;
+    out.id = can::references_id(node).id, out.fd = true, out.fd_flags = 1, out.length = 64;
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        for (std::size_t i = 0; i < 4; ++i)
+            out.data[at + i] = std::uint8_t(value >> (8 * i));
+    };
+    out.data[0] = 1, out.data[1] = std::uint8_t(count);
+    put(4, first);
+    for (std::uint32_t i = 0; i < count; ++i)
+        put(8 + 4 * i, std::uint32_t(references[first + i]));
+    return out;
+}
+
+std::vector<std::int32_t> references_of(const Experiment& e, const DriveScales& s) {
+    const double unit = s.count * std::ldexp(1, s.position_shift - 8);
+    const double zero = e.position_ref(0);
+    std::vector<std::int32_t> out;
+    const long rows = std::lround(e.duration_s / s.sample_time_s);
+    for (long i = 0; i < rows; ++i) {
+        const double r = std::round((e.position_ref(double(i) * s.sample_time_s) - zero) / unit);
+        if (std::fabs(r) > 2147483647.0)
+            throw UsageError("the move goes further than the drive's reference can say");
+        out.push_back(std::int32_t(r));
+    }
+    return out;
+}
+
+} // namespace
+
+bool is_refusal(sid_reason_t reason) {
+    return reason >= SID_NO_EXCITATION && reason <= SID_NEGATIVE_INERTIA;
+}
+
+Master::Master(Link& link) : link_(link), token_(token()), run_(token()) {
+    read_scales();
+    claim();
+    link_.write(
+        0x1016, 1,
+        std::uint32_t(link_.options().master) << 16 | std::uint32_t(link_.options().timeout_ms), 4);
+    link_.write(kCommand, 6, 1, 1);
+    link_.pump(milliseconds(5)); // a free-running drive has not seen a sample yet
+}
+
+Master::~Master() {
+    if (!claimed_) return;
+    try {
+        link_.write(kCommand, 5, 1, 1);
+        link_.write(kCommand, 6, 0, 1);
+        link_.write(kCommand, 1, 0, 4);
+    } catch (const Error&) { // its heartbeat will be missed, and the drive holds its axis
+    }
+}
+
+double Master::read_scaled(std::uint16_t index, std::uint8_t sub) {
+    const auto mantissa = std::int32_t(link_.read(index, sub));
+    const auto exponent = std::int16_t(link_.read(index, std::uint8_t(sub + 1)));
+    return std::ldexp(mantissa, exponent);
+}
+
+void Master::read_scales() {
+    const std::uint32_t version = link_.read(kAxis, 1);
+    if (version != kVersion)
+        throw can::BusError(fmt::format("node {} speaks version {}, expected {}",
+                                        link_.options().node, version, kVersion));
+    const std::uint64_t rate =
+        std::uint64_t(link_.read(kAxis, 3)) << 32 | std::uint64_t(link_.read(kAxis, 2));
+    scales_.sample_time_s = 1e6 / double(rate);
+    scales_.rated_torque = read_scaled(kAxis, 4);
+    scales_.count = read_scaled(kAxis, 6);
+    scales_.linear = (link_.read(kAxis, 8) & 1) != 0;
+    scales_.position_shift = int(link_.read(kAxis, 10));
+    scales_.plan_capacity = int(link_.read(kAxis, 11));
+    scales_.reference_count = link_.read(kAxis, 12);
+    if (rate == 0 || !(scales_.rated_torque > 0) || !(scales_.count > 0))
+        throw can::BusError(fmt::format("node {} gives no scales", link_.options().node));
+}
+
+void Master::claim() try {
+    link_.write(kCommand, 1, token_, 4);
+    claimed_ = true;
+} catch (const SdoAbort& no) {
+    if (no.code() != kNotNow) throw;
+    throw can::BusError(fmt::format("node {} belongs to another master, or runs; wait for it, or "
+                                    "stop it with `servoid command abort`",
+                                    link_.options().node));
+}
+
+Status Master::status() {
+    Status out;
+    out.state = sid_state_t(link_.read(kStatus, 1));
+    out.reason = sid_reason_t(link_.read(kStatus, 2));
+    out.leg = int(link_.read(kStatus, 3));
+    return out;
+}
+
+double Master::position() {
+    for (int i = 0; i < 100; ++i) {
+        if (const auto at = link_.telemetry().position()) return *at;
+        link_.pump(milliseconds(20));
+    }
+    throw can::BusError(fmt::format("node {} sends no telemetry", link_.options().node));
+}
+
+void Master::start() {
+    (void)link_.was_reset();
+    ++run_;
+    link_.write(kCommand, 4, run_, 4);
+}
+
+RunEnd Master::wait_for_end(const std::function<RunProgress(const Status&)>& look,
+                            const OnProgress& progress) {
+    while (true) {
+        const Status now = status();
+        if (link_.was_reset() || now.state == SID_STATE_IDLE)
+            return {now, fmt::format("node {} was reset during the run", link_.options().node)};
+        const RunProgress told = look(now); // streams, too
+        if (now.state == SID_STATE_DONE) return {now, ""};
+        if (now.state == SID_STATE_ABORTED) return {now, sid_reason_text(now.reason)};
+        if (progress && Link::Clock::now() >= progress_at_) {
+            progress(told);
+            progress_at_ = Link::Clock::now() + milliseconds(100);
+        }
+        link_.pump(milliseconds(5));
+    }
+}
+
+void Master::set_plan(const std::vector<PlannedSine>& plan, const SessionOptions& options) {
+    if (plan.empty() || int(plan.size()) > scales_.plan_capacity)
+        throw UsageError(fmt::format("the drive takes 1 to {} frequencies", scales_.plan_capacity));
+    const double unit = scales_.count * std::ldexp(1, scales_.position_shift - 8);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const double amplitude = std::round(plan[i].amplitude / unit);
+        if (!(amplitude >= 1) || amplitude >= std::ldexp(1, 30) || plan[i].frequency_Hz > 4294)
+            throw UsageError("--frequency, --amplitude: out of the drive's range");
+        const auto leg = std::uint8_t(i + 1);
+        link_.write(kFrequency, leg, std::uint32_t(std::llround(plan[i].frequency_Hz * 1e6)), 4);
+        link_.write(kAmplitude, leg, std::uint32_t(amplitude), 4);
+    }
+    link_.write(kOptions, 1, std::uint32_t(plan.size()), 1);
+    link_.write(kOptions, 2, std::uint32_t(options.windows), 1);
+    link_.write(kOptions, 3, q8(options.ramp_periods), 2);
+    link_.write(kOptions, 4, q8(options.settle_periods), 2);
+    link_.write(kOptions, 5, q8(options.window_periods), 2);
+    link_.write(kOptions, 8, std::uint32_t(options.method), 1);
+    link_.write(kCommand, 2, 1, 1);
+}
+
+RunEnd Master::identify(const std::vector<PlannedSine>& plan, const SessionOptions& options,
+                        const OnProgress& progress) {
+    set_plan(plan, options);
+    start();
+    const auto look = [&](const Status& now) {
+        const auto leg = std::min(std::size_t(now.leg), plan.size() - 1);
+        return RunProgress{
+            fmt::format("leg {} of {}, {:.4g} Hz", leg + 1, plan.size(), plan[leg].frequency_Hz),
+            double(leg) / double(plan.size()), link_.telemetry().rows()};
+    };
+    return wait_for_end(look, progress);
+}
+
+std::vector<SessionResult> Master::results(const std::vector<PlannedSine>& plan) {
+    const double h = scales_.sample_time_s;
+    const double c = scales_.count * std::ldexp(1, scales_.position_shift);
+    std::vector<SessionResult> out;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const auto object = std::uint16_t(kResult + i);
+        const double inertia = scales_.rated_torque * h * h / c,
+                     viscous = scales_.rated_torque * h / c;
+        SessionResult r;
+        r.frequency_Hz = plan[i].frequency_Hz;
+        r.reason = sid_reason_t(link_.read(object, 1));
+        r.std_known = link_.read(object, 3) != 0;
+        r.inertia = read_scaled(object, 4) * inertia;
+        r.inertia_std = read_scaled(object, 6) * inertia;
+        r.viscous = read_scaled(object, 8) * viscous;
+        r.viscous_std = read_scaled(object, 10) * viscous;
+        r.torque_amplitude = read_scaled(object, 12) * scales_.rated_torque;
+        r.position_amplitude = read_scaled(object, 14) * c;
+        out.push_back(r);
+    }
+    return out;
+}
+
+// Ahead of what the drive plays, and again from where it stands where something was lost.
+void Master::stream_some(const std::vector<std::int32_t>& references) {
+    const auto total = std::uint32_t(references.size());
+    const std::uint32_t filled = link_.read(kStatus, 6);
+    const std::uint32_t played = link_.read(kStatus, 7);
+    const bool moved = filled != filled_ || played != played_;
+    stalled_ = moved ? 0 : stalled_ + 1;
+    if (stalled_ > kStalled)
+        throw can::BusError(
+            fmt::format("node {} takes no references (CAN FD?)", link_.options().node));
+    if (filled == filled_ && sent_ > filled) sent_ = filled; // nothing has come since the last look
+    filled_ = filled, played_ = played;
+    sent_ = std::max(sent_, filled);
+    const std::uint32_t end =
+        std::min({total, played_ + scales_.reference_count, filled + kInFlight});
+    for (; sent_ < end; sent_ += std::min(kReferencesInFrame, end - sent_))
+        link_.send(reference_frame(link_.options().node, references, sent_,
+                                   std::min(kReferencesInFrame, end - sent_)));
+}
+
+RunEnd Master::move(const Experiment& experiment, const OnProgress& progress) {
+    const std::vector<std::int32_t> references = references_of(experiment, scales_);
+    const auto total = std::uint32_t(references.size());
+    sent_ = filled_ = played_ = 0, stalled_ = 0;
+    link_.write(kCommand, 3, total, 4);
+    const std::uint32_t ready = std::min(total, scales_.reference_count / 2 + 1);
+    while (filled_ < ready) {
+        stream_some(references);
+        link_.pump(milliseconds(2));
+    }
+    start();
+    const auto look = [&](const Status&) {
+        if (filled_ < total) stream_some(references);
+        const double h = scales_.sample_time_s;
+        return RunProgress{fmt::format("{:.1f} of {:.1f} s", played_ * h, total * h),
+                           double(played_) / double(total), link_.telemetry().rows()};
+    };
+    return wait_for_end(look, progress);
+}
+
+void Master::finish() {
+    link_.wait(0.1);
+    link_.write(kCommand, 6, 0, 1);
+    link_.wait(0.05);
+}
+
+} // namespace servoid
