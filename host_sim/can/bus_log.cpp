@@ -40,6 +40,16 @@ std::int64_t rounded(double value, const Field& field) {
 
 } // namespace
 
+BusCaptures captures_of(const BusTable& table, const std::string& path,
+                        const CaptureScales& scales) {
+    BusCaptures out;
+    for (RawTable& rows : table.tables(path, out.report)) {
+        check_columns(rows);
+        out.captures.push_back(assemble(std::move(rows), scales));
+    }
+    return out;
+}
+
 BusCaptures read_candump(const std::string& path, const FrameMap& map,
                          const CaptureScales& scales) {
     const std::string text = read_file(path);
@@ -48,13 +58,8 @@ BusCaptures read_candump(const std::string& path, const FrameMap& map,
     BusTable table(map);
     for (Frame frame; reader.next(frame);)
         if (reader.interfaces()[frame.interface] == interface) table.add(frame);
-    BusCaptures out;
-    std::vector<RawTable> tables = table.tables(path, out.report);
+    BusCaptures out = captures_of(table, path, scales);
     out.report.dropped = long(reader.dropped());
-    for (RawTable& rows : tables) {
-        check_columns(rows);
-        out.captures.push_back(assemble(std::move(rows), scales));
-    }
     return out;
 }
 

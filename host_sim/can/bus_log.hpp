@@ -1,4 +1,4 @@
-// A candump log as captures.
+// What was heard on a bus as captures, and a candump log as one way to have heard it.
 #pragma once
 
 #include "can/bus_table.hpp"
@@ -11,7 +11,12 @@ struct BusCaptures {
     BusReport report;
 };
 
-// Throws FileError (a line, a frame that is not there) and Refusal (nothing to build a row of).
+// Of everything that a table was given, from a log or a live bus. path: for messages. Throws
+// FileError (a frame that is not there) and Refusal (nothing to build a row of).
+BusCaptures captures_of(const BusTable& table, const std::string& path,
+                        const CaptureScales& scales);
+
+// The same of a log; also FileError with the line that is no frame.
 BusCaptures read_candump(const std::string& path, const FrameMap& map, const CaptureScales& scales);
 
 // A capture as the log of a drive that answers each SYNC (0x80) with one TPDO of CiA 402 (0x181):

@@ -19,8 +19,10 @@ struct BusReport {
     long late = 0;         // more than half a period after their time
     long reordered = 0;    // after one that was sent later (seen by a counter or a device time)
     long short_frames = 0; // too few bytes for the map
-    long errors = 0;       // error frames of the bus
-    long dropped = 0;      // that the logger says it missed
+    long errors = 0;       // error frames of the bus; of them:
+    long bus_off = 0, restarted = 0, error_passive = 0, error_warning = 0;
+    long dropped = 0;        // that the logger says it missed, or a live bus had no room for
+    long interface_down = 0; // how often, while a live bus was heard
     double period_s = 0;
     double jitter_s = 0; // rms of the arrivals about the fitted clock
     std::string clock;   // what gave the instants: "SYNC", "counter", "device time", "arrival"
@@ -52,6 +54,7 @@ class BusTable {
         long first = 0, last = -1;                   // cycles in which all of them have begun
     };
     Arrivals* find(FrameId id);
+    void count_error(const Frame& frame);
     void refuse_if_missing(const std::string& path) const;
     FittedClock clock_of(const Arrivals& arrivals, BusReport& report) const;
     Cycles cycles_by_sync(BusReport& report) const;
@@ -62,7 +65,7 @@ class BusTable {
 
     FrameMap map_;
     std::int64_t first_ns_ = 0;
-    long frames_ = 0, errors_ = 0, short_ = 0;
+    BusReport seen_; // frames, errors, short_frames: what is counted at once
     std::vector<double> sync_s_;
     std::vector<Arrivals> arrivals_;
 };

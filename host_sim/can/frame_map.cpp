@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace servoid::can {
 
@@ -148,6 +149,22 @@ constexpr Object kObjects[] = {{"6041", 16, ""},
 const std::vector<std::string>& default_objects() {
     static const std::vector<std::string> objects = {"6041", "6064", "6077"};
     return objects;
+}
+
+std::vector<FrameId> data_identifiers(const FrameMap& map) {
+    std::set<FrameId> out;
+    for (const MappedSignal& s : map.signals)
+        out.insert(s.field.frame);
+    if (map.counter) out.insert(map.counter->frame);
+    if (map.device_time) out.insert(map.device_time->frame);
+    return {out.begin(), out.end()};
+}
+
+std::vector<FrameId> mapped_identifiers(const FrameMap& map) {
+    std::vector<FrameId> out = data_identifiers(map);
+    if (map.sync && std::find(out.begin(), out.end(), *map.sync) == out.end())
+        out.push_back(*map.sync);
+    return out;
 }
 
 void check_map(const FrameMap& map) {

@@ -44,6 +44,10 @@ FrameMap map_of_cia402(int node, int tpdo, const std::vector<std::string>& objec
 // Status word, position and torque actual value: 6041, 6064, 6077.
 const std::vector<std::string>& default_objects();
 
+// Of the frames that hold signals, the counter or the device time; SYNC aside. Each once.
+std::vector<FrameId> data_identifiers(const FrameMap& map);
+std::vector<FrameId> mapped_identifiers(const FrameMap& map); // and SYNC
+
 // Throws FileError where a field leaves its frame or two of them overlap.
 void check_map(const FrameMap& map);
 

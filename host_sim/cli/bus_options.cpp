@@ -33,6 +33,7 @@ can::FrameMap BusOptions::frame_map() const {
                         : !dbc.empty() ? can::map_from_dbc(dbc, signals)
                                        : can::map_of_cia402(node, tpdo, objects);
     if (!sync.empty()) out.sync = parse_id(sync);
+    if (period_s) out.period_s = period_s;
     return out;
 }
 
@@ -53,6 +54,9 @@ void add_bus_options(CLI::App& verb, BusOptions& options) {
     verb.add_option("--objects", options.objects,
                     "of the TPDO, in their order (default: 6041 6064 6077)");
     verb.add_option("--sync", options.sync, "identifier of the frame at each sampling instant");
+    verb.add_option("--period", options.period_s,
+                    "the cycle, s, where it is known (else found from the arrivals)")
+        ->check(CLI::PositiveNumber);
 }
 
 } // namespace servoid::cli
