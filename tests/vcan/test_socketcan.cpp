@@ -94,9 +94,9 @@ TEST(SocketCan, ListensToWhatItIsTold) {
     };
     send_all();
     EXPECT_EQ(heard(), "0x181 0x00000181x ");
-    to.listen_to({{0x182, false}});
+    to.listen_to({{0x182, false}, {0x180, true}});
     send_all();
-    EXPECT_EQ(heard(), "0x182 ");
+    EXPECT_EQ(heard(), "0x00000180x 0x182 ");
     to.listen_to({});
     send_all();
     EXPECT_EQ(heard(), "0x180 0x00000180x 0x181 0x00000181x 0x182 0x00000182x ");
