@@ -1,13 +1,13 @@
 #include "can/bus_log.hpp"
 
 #include "can/candump.hpp"
-#include "capture/assemble.hpp"
-#include "capture/csv_reader.hpp" // check_columns
+#include "can/collector.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace servoid::can {
@@ -22,10 +22,10 @@ constexpr std::int64_t kAnswer_ns = 40000; // a TPDO after its SYNC: its own len
 std::string interface_of(const std::string& text, const FrameMap& map, const std::string& path) {
     if (!map.interface.empty()) return map.interface;
     CandumpReader reader(text, path);
+    const std::vector<FrameId> data = data_identifiers(map);
     for (Frame frame; reader.next(frame);)
-        for (const MappedSignal& s : map.signals)
-            if (!frame.error && s.field.frame == id_of(frame))
-                return reader.interfaces()[frame.interface];
+        if (!frame.error && std::find(data.begin(), data.end(), id_of(frame)) != data.end())
+            return reader.interfaces()[frame.interface];
     return "";
 }
 
@@ -45,16 +45,11 @@ BusCaptures read_candump(const std::string& path, const FrameMap& map,
     const std::string text = read_file(path);
     const std::string interface = interface_of(text, map, path);
     CandumpReader reader(text, path);
-    BusTable table(map);
+    Collector table(map);
     for (Frame frame; reader.next(frame);)
         if (reader.interfaces()[frame.interface] == interface) table.add(frame);
-    BusCaptures out;
-    std::vector<RawTable> tables = table.tables(path, out.report);
+    BusCaptures out = table.captures(path, scales);
     out.report.dropped = long(reader.dropped());
-    for (RawTable& rows : tables) {
-        check_columns(rows);
-        out.captures.push_back(assemble(std::move(rows), scales));
-    }
     return out;
 }
 

@@ -1,15 +1,11 @@
-// A candump log as captures.
+// A candump log as captures, and back.
 #pragma once
 
-#include "can/bus_table.hpp"
+#include "can/bus_report.hpp"
+#include "can/frame_map.hpp"
 #include "capture/capture.hpp"
 
 namespace servoid::can {
-
-struct BusCaptures {
-    std::vector<Capture> captures; // one for each stretch without a gap
-    BusReport report;
-};
 
 // Throws FileError (a line, a frame that is not there) and Refusal (nothing to build a row of).
 BusCaptures read_candump(const std::string& path, const FrameMap& map, const CaptureScales& scales);

@@ -59,8 +59,8 @@ BusTable::Arrivals* BusTable::find(FrameId id) {
 }
 
 void BusTable::add(const Frame& frame) {
-    if (frames_++ == 0) first_ns_ = frame.time_ns;
-    if (frame.error) ++errors_;
+    if (seen_.frames++ == 0) first_ns_ = frame.time_ns;
+    if (frame.error) count_error(frame, seen_);
     if (frame.error || frame.remote) return;
     const double time_s = double(frame.time_ns - first_ns_) * 1e-9;
     const FrameId id = id_of(frame);
@@ -68,7 +68,7 @@ void BusTable::add(const Frame& frame) {
     Arrivals* a = find(id);
     if (!a) return;
     if (frame.length < a->bytes) {
-        ++short_;
+        ++seen_.short_frames;
         return;
     }
     a->time_s.push_back(time_s);
@@ -191,16 +191,16 @@ std::vector<long> BusTable::whole_cycles(const Placed& placed) const {
 void BusTable::refuse_if_missing(const std::string& path) const {
     for (const Arrivals& a : arrivals_)
         if (a.time_s.empty())
-            throw FileError(path, 0,
-                            fmt::format("no frame {} {}", to_text(a.id),
-                                        short_ ? "is long enough for the map" : "is in the log"));
+            throw FileError(
+                path, 0,
+                fmt::format("no frame {} {}", to_text(a.id),
+                            seen_.short_frames ? "is long enough for the map" : "is in the log"));
     if (map_.sync && sync_s_.empty())
         throw FileError(path, 0, "no SYNC frame " + to_text(*map_.sync) + " is in the log");
 }
 
 std::vector<RawTable> BusTable::tables(const std::string& path, BusReport& report) const {
-    report = {};
-    report.frames = frames_, report.errors = errors_, report.short_frames = short_;
+    report = seen_;
     refuse_if_missing(path);
     const Placed placed = place(report);
     const std::vector<long> whole = whole_cycles(placed);

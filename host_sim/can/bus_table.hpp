@@ -2,6 +2,7 @@
 #pragma once
 
 #include "can/bus_clock.hpp"
+#include "can/bus_report.hpp"
 #include "can/frame_map.hpp"
 #include "capture/raw_table.hpp"
 
@@ -10,22 +11,6 @@
 #include <vector>
 
 namespace servoid::can {
-
-struct BusReport {
-    long frames = 0;       // all that were seen
-    long used = 0;         // that stand in a row
-    long lost = 0;         // cycles of which a frame is missing
-    long repeated = 0;     // the same once more
-    long late = 0;         // more than half a period after their time
-    long reordered = 0;    // after one that was sent later (seen by a counter or a device time)
-    long short_frames = 0; // too few bytes for the map
-    long errors = 0;       // error frames of the bus
-    long dropped = 0;      // that the logger says it missed
-    long resets = 0;       // of the drive, while it was listened to
-    double period_s = 0;
-    double jitter_s = 0; // rms of the arrivals about the fitted clock
-    std::string clock;   // what gave the instants: "SYNC", "counter", "device time", "arrival"
-};
 
 // Collects the mapped frames in the order of their arrival; then the tables, one for each stretch
 // without a gap that has at least 16 rows, SI or as the columns' names say. Memory: some 30 bytes
@@ -63,7 +48,7 @@ class BusTable {
 
     FrameMap map_;
     std::int64_t first_ns_ = 0;
-    long frames_ = 0, errors_ = 0, short_ = 0;
+    BusReport seen_; // frames, errors, short_frames: what is counted at once
     std::vector<double> sync_s_;
     std::vector<Arrivals> arrivals_;
 };

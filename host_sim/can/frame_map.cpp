@@ -1,5 +1,7 @@
 #include "can/frame_map.hpp"
 
+#include "can/telemetry.hpp"
+
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/text.hpp"
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace servoid::can {
 
@@ -87,9 +90,11 @@ MappedSignal read_signal(const TomlView& table, const std::string& name) {
 
 // The signals of a profile, for a map that says `profile` instead of [signals].
 FrameMap of_profile(const TomlView& bus) {
-    if (bus.text("profile") != "cia402")
-        bus.fail("profile", bus.full("profile") + " must be cia402");
+    const std::string profile = bus.text("profile");
+    if (profile != "cia402" && profile != "servoid")
+        bus.fail("profile", bus.full("profile") + " must be cia402 or servoid");
     const int node = bus.has("node") ? int(whole(bus, "node", 1, 127)) : 1;
+    if (profile == "servoid") return map_of_telemetry(node);
     const int tpdo = bus.has("tpdo") ? int(whole(bus, "tpdo", 1, 4)) : 1;
     return map_of_cia402(node, tpdo, bus.has("objects") ? bus.texts("objects") : default_objects());
 }
@@ -150,7 +155,25 @@ const std::vector<std::string>& default_objects() {
     return objects;
 }
 
+std::vector<FrameId> data_identifiers(const FrameMap& map) {
+    std::set<FrameId> out;
+    if (map.telemetry_node) out.insert(telemetry_id(*map.telemetry_node));
+    for (const MappedSignal& s : map.signals)
+        out.insert(s.field.frame);
+    if (map.counter) out.insert(map.counter->frame);
+    if (map.device_time) out.insert(map.device_time->frame);
+    return {out.begin(), out.end()};
+}
+
+std::vector<FrameId> mapped_identifiers(const FrameMap& map) {
+    std::vector<FrameId> out = data_identifiers(map);
+    if (map.sync && std::find(out.begin(), out.end(), *map.sync) == out.end())
+        out.push_back(*map.sync);
+    return out;
+}
+
 void check_map(const FrameMap& map) {
+    if (map.telemetry_node) return;
     std::vector<const Field*> fields;
     for (const MappedSignal& s : map.signals)
         fields.push_back(&s.field);
@@ -191,6 +214,13 @@ FrameMap map_from_dbc(const std::string& path, const std::map<std::string, std::
     for (const auto& [name, said] : signals)
         map.signals.push_back(mapped(dbc, name, said));
     check_map(map);
+    return map;
+}
+
+FrameMap map_of_telemetry(int node) {
+    FrameMap map;
+    map.path = "the telemetry of a servoid drive";
+    map.telemetry_node = node;
     return map;
 }
 

@@ -21,11 +21,12 @@ struct MappedSignal {
 struct FrameMap {
     std::string path; // for messages
     std::vector<MappedSignal> signals;
-    std::optional<FrameId> sync;      // a frame at each sampling instant, before its data
-    std::optional<Field> counter;     // sequence number of the cycle
-    std::optional<Field> device_time; // of the drive; its scale makes seconds of it
-    std::optional<double> period_s;   // stated; else found
-    std::string interface;            // "": that of the first frame that is mapped
+    std::optional<FrameId> sync;       // a frame at each sampling instant, before its data
+    std::optional<Field> counter;      // sequence number of the cycle
+    std::optional<Field> device_time;  // of the drive; its scale makes seconds of it
+    std::optional<double> period_s;    // stated; else found
+    std::optional<int> telemetry_node; // servoid's own frames (telemetry.hpp) in place of fields
+    std::string interface;             // "": that of the first frame that is mapped
     std::map<std::string, std::string> metadata;
 };
 
@@ -41,8 +42,15 @@ FrameMap map_from_dbc(const std::string& path, const std::map<std::string, std::
 // The profile CiA 402: SYNC 0x80 and one TPDO of the node that holds these objects, in their order.
 FrameMap map_of_cia402(int node, int tpdo, const std::vector<std::string>& objects);
 
+// The telemetry of a servoid drive (SPEC.md, "On the bus").
+FrameMap map_of_telemetry(int node);
+
 // Status word, position and torque actual value: 6041, 6064, 6077.
 const std::vector<std::string>& default_objects();
+
+// Of the frames that hold signals, the counter or the device time; SYNC aside. Each once.
+std::vector<FrameId> data_identifiers(const FrameMap& map);
+std::vector<FrameId> mapped_identifiers(const FrameMap& map); // and SYNC
 
 // Throws FileError where a field leaves its frame or two of them overlap.
 void check_map(const FrameMap& map);

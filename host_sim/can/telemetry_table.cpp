@@ -30,11 +30,12 @@ RawColumn column(const char* name, Printing printing) {
 
 } // namespace
 
-TelemetryTable::TelemetryTable(int node) : node_(node) {}
+TelemetryTable::TelemetryTable(int node, std::map<std::string, std::string> metadata)
+    : node_(node), metadata_(std::move(metadata)) {}
 
 void TelemetryTable::begin_epoch() {
     if (fresh_) return; // two signs of one reset
-    ++resets_, fresh_ = true;
+    ++seen_.resets, fresh_ = true;
     epoch_ += kEpoch;
 }
 
@@ -50,7 +51,7 @@ std::int64_t TelemetryTable::unroll(std::uint32_t tick) {
 
 void TelemetryTable::add_samples(const TelemetrySamples& samples, std::int64_t time_ns) {
     const std::int64_t tick = unroll(samples.tick);
-    if (tick < newest_) ++reordered_;
+    if (tick < newest_) ++seen_.reordered;
     for (int i = 0; i < samples.rows; ++i)
         all_.push_back({tick + i, samples.row[std::size_t(i)]});
     newest_ = std::max(newest_, tick);
@@ -72,14 +73,14 @@ void TelemetryTable::add_description(const TelemetryDescription& description) {
 }
 
 void TelemetryTable::add(const Frame& frame) {
-    ++frames_;
-    if (frame.error) ++errors_;
+    ++seen_.frames;
+    if (frame.error) count_error(frame, seen_);
     if (frame.error || frame.remote || frame.extended) return;
     if (id_of(frame) == heartbeat_id(node_) && frame.length >= 1 && frame.data[0] == 0)
         begin_epoch();
     if (id_of(frame) != telemetry_id(node_)) return;
     const Telemetry told = decode_telemetry(frame);
-    if (std::holds_alternative<std::monostate>(told)) ++short_;
+    if (std::holds_alternative<std::monostate>(told)) ++seen_.short_frames;
     if (const auto* samples = std::get_if<TelemetrySamples>(&told))
         add_samples(*samples, frame.time_ns);
     if (const auto* description = std::get_if<TelemetryDescription>(&told))
@@ -140,6 +141,8 @@ Capture TelemetryTable::capture_of(const Row* first, const Row* end, const Run& 
     RawTable table;
     table.path = table.metadata_path = path;
     table.metadata["source"] = {fmt::format("node {}, telemetry", node_), 0};
+    for (const auto& [key, value] : metadata_)
+        table.metadata[key] = {value, 0};
     table.columns = {std::move(time), std::move(torque), std::move(position)};
     if (d.started()) table.columns.push_back(std::move(reference));
     CaptureScales scales;
@@ -149,7 +152,7 @@ Capture TelemetryTable::capture_of(const Row* first, const Row* end, const Run& 
 }
 
 double TelemetryTable::jitter_s() const {
-    if (resets_ > 0 || arrival_s_.size() < 16) return 0;
+    if (seen_.resets > 0 || arrival_s_.size() < 16) return 0;
     return line_through(arrival_s_, arrival_tick_).jitter_s;
 }
 
@@ -188,8 +191,7 @@ BusCaptures TelemetryTable::captures(const std::string& path) const {
                                     "listen for a second of telemetry",
                                     node_, to_text(telemetry_id(node_))));
     BusCaptures out;
-    out.report.frames = frames_, out.report.errors = errors_, out.report.short_frames = short_;
-    out.report.resets = resets_, out.report.reordered = reordered_;
+    out.report = seen_;
     out.report.clock = "device time", out.report.period_s = description_->sample_time_s();
     out.report.jitter_s = jitter_s();
     const std::vector<Row> rows = sorted(out.report);

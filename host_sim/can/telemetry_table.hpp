@@ -1,7 +1,7 @@
 // Telemetry becomes captures: one for each run and stretch without a gap.
 #pragma once
 
-#include "can/bus_log.hpp"
+#include "can/bus_report.hpp"
 #include "can/telemetry.hpp"
 #include "servoid/sid_identify.h"
 
@@ -19,7 +19,8 @@ namespace servoid::can {
 // capture. Memory: 24 bytes a row.
 class TelemetryTable {
   public:
-    explicit TelemetryTable(int node);
+    // metadata: of a map, as [metadata] has it.
+    explicit TelemetryTable(int node, std::map<std::string, std::string> metadata = {});
     void add(const Frame& frame);
     // The last description, once there was one.
     const std::optional<TelemetryDescription>& description() const { return description_; }
@@ -29,7 +30,7 @@ class TelemetryTable {
     // Newest state, and how far a streamed move has come.
     std::uint8_t state() const { return state_; }
     const TelemetryProgress& progress() const { return progress_; }
-    long resets() const { return resets_; }
+    long resets() const { return seen_.resets; }
     // Throws FileError (no telemetry, no description) and Refusal (no 16 rows in a row).
     BusCaptures captures(const std::string& path) const;
 
@@ -58,6 +59,7 @@ class TelemetryTable {
     double jitter_s() const;
 
     int node_;
+    std::map<std::string, std::string> metadata_;
     std::optional<TelemetryDescription> description_;
     TelemetryProgress progress_;
     std::uint8_t state_ = 0;
@@ -67,7 +69,7 @@ class TelemetryTable {
     bool fresh_ = true;                                   // no tick of this epoch yet
     std::vector<double> arrival_s_;
     std::vector<long> arrival_tick_;
-    long frames_ = 0, short_ = 0, errors_ = 0, resets_ = 0, reordered_ = 0;
+    BusReport seen_; // what is counted at once
 };
 
 } // namespace servoid::can

@@ -26,13 +26,15 @@ can::FrameId parse_id(const std::string& text) {
 can::FrameMap BusOptions::frame_map() const {
     const int ways = int(!map.empty()) + int(!dbc.empty()) + int(!profile.empty());
     if (ways != 1)
-        throw UsageError("what the frames mean: one of --map FILE, --dbc FILE, --profile cia402");
+        throw UsageError("what the frames mean: one of --map FILE, --dbc FILE, --profile NAME");
     if (dbc.empty() && !signals.empty())
         throw UsageError("--torque, --position and the like name signals of a --dbc FILE");
-    can::FrameMap out = !map.empty()   ? can::read_frame_map(map)
-                        : !dbc.empty() ? can::map_from_dbc(dbc, signals)
-                                       : can::map_of_cia402(node, tpdo, objects);
+    can::FrameMap out = !map.empty()           ? can::read_frame_map(map)
+                        : !dbc.empty()         ? can::map_from_dbc(dbc, signals)
+                        : profile == "servoid" ? can::map_of_telemetry(node)
+                                               : can::map_of_cia402(node, tpdo, objects);
     if (!sync.empty()) out.sync = parse_id(sync);
+    if (period_s) out.period_s = period_s;
     return out;
 }
 
@@ -46,13 +48,17 @@ void add_bus_options(CLI::App& verb, BusOptions& options) {
             flag, [&options, name](const std::string& said) { options.signals[name] = said; },
             "Message.Signal of the DBC, or Message.Signal:UNIT");
     }
-    verb.add_option("--profile", options.profile, "cia402: SYNC 0x80 and one TPDO of a node")
-        ->check(CLI::IsMember({"cia402"}));
+    verb.add_option("--profile", options.profile,
+                    "cia402: SYNC 0x80 and one TPDO of a node; servoid: our telemetry")
+        ->check(CLI::IsMember({"cia402", "servoid"}));
     verb.add_option("--node", options.node, "of the profile")->check(CLI::Range(1, 127));
     verb.add_option("--tpdo", options.tpdo, "of the profile")->check(CLI::Range(1, 4));
     verb.add_option("--objects", options.objects,
                     "of the TPDO, in their order (default: 6041 6064 6077)");
     verb.add_option("--sync", options.sync, "identifier of the frame at each sampling instant");
+    verb.add_option("--period", options.period_s,
+                    "the cycle, s, where it is known (else found from the arrivals)")
+        ->check(CLI::PositiveNumber);
 }
 
 } // namespace servoid::cli

@@ -13,6 +13,7 @@ struct BusOptions {
     std::map<std::string, std::string> signals; // of the DBC: "torque" to "Message.Signal[:unit]"
     std::vector<std::string> objects = can::default_objects();
     int node = 1, tpdo = 1;
+    std::optional<double> period_s; // stated; beats that of the map
 
     can::FrameMap frame_map() const;
 };

@@ -7,7 +7,8 @@
 namespace servoid::cli {
 
 Json bus_json(const can::BusReport& bus);
-void print_bus(const Output& out, const can::BusCaptures& heard);
+// live: what was dropped was dropped here, else by the logger.
+void print_bus(const Output& out, const can::BusCaptures& heard, bool live);
 
 // The stretch that tells most.
 const Capture& longest(const std::vector<Capture>& captures);

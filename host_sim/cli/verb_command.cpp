@@ -101,7 +101,7 @@ std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
 // The longest stretch goes into the file.
 void keep(const std::optional<can::BusCaptures>& all, const Options& o) {
     if (!all) return;
-    print_bus(o.output, *all);
+    print_bus(o.output, *all, true);
     if (o.out.empty()) return;
     const Capture& capture = longest(all->captures);
     write_file(o.out, format_capture_csv(capture));

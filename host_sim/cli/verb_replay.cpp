@@ -1,8 +1,10 @@
-// servoid replay: captured bus traffic through the firmware core.
+// servoid replay: captured or live bus traffic through the firmware core.
 #include "can/bus_log.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/bus_output.hpp"
 #include "cli/identify_output.hpp"
+#include "cli/replay_live.hpp"
+#include "common/error.hpp"
 #include "common/file.hpp"
 
 #include <memory>
@@ -14,6 +16,7 @@ namespace {
 struct Options {
     Output output;
     BusOptions bus;
+    LiveOptions live;
     IdentifyArguments identify;
     std::string log, out;
 };
@@ -21,9 +24,14 @@ struct Options {
 void run_replay(const Options& o) {
     const std::optional<Model> model = o.identify.read_model();
     const Model* known = model ? &*model : nullptr;
-    const can::BusCaptures log =
-        can::read_candump(o.log, o.bus.frame_map(), known ? scales_of(*known) : CaptureScales{});
-    print_bus(o.output, log);
+    const CaptureScales scales = known ? scales_of(*known) : CaptureScales{};
+    const bool live = !o.live.interface.empty();
+    if (live == !o.log.empty())
+        throw UsageError("what to replay: either a candump LOG or --can INTERFACE");
+    const can::FrameMap map = o.bus.frame_map();
+    const can::BusCaptures log = live ? record_live(o.live, map, scales, o.output, o.out)
+                                      : can::read_candump(o.log, map, scales);
+    print_bus(o.output, log, live);
     const Capture& capture = longest(log.captures);
     if (!o.out.empty()) write_file(o.out, format_capture_csv(capture));
     const auto all = identify_all({capture}, o.identify.options(known));
@@ -37,8 +45,10 @@ void run_replay(const Options& o) {
 
 void add_replay(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("replay", "captured CAN traffic through the firmware core");
-    verb->add_option("log", o->log, "candump log (candump -l, -L)")->required();
+    CLI::App* verb =
+        app.add_subcommand("replay", "captured or live CAN traffic through the firmware core");
+    verb->add_option("LOG", o->log, "candump log (candump -l, -L)");
+    add_live_options(*verb, o->live);
     add_bus_options(*verb, o->bus);
     add_identify_options(*verb, o->identify);
     verb->add_option("--out", o->out, "also write the longest stretch without a gap as .csv");
@@ -46,6 +56,7 @@ void add_replay(CLI::App& app) {
     add_examples(*verb,
                  "  servoid replay can0.log --profile cia402 --model motor.toml\n"
                  "  servoid replay can0.log --map drive.toml --out move.csv\n"
+                 "  servoid replay --can can0 --map drive.toml --for 10 --log heard.log\n"
                  "  servoid replay can0.log --dbc drive.dbc --torque Drive.Torque:Nm --position "
                  "Drive.Position:rad");
     verb->callback([o] { run_replay(*o); });

@@ -91,6 +91,37 @@ TEST(Replay, AnotherBusIsLeftOut) {
     EXPECT_EQ(inertia_of(run(one)), inertia_of(run(two)));
 }
 
+// Live needs a bus: the tests of label vcan. What can be said without one:
+TEST(Replay, WithoutABusTheFaultIsNamed) {
+    const std::vector<std::string> wrong[] = {
+        {"replay", "--profile", "cia402"},                           // neither log nor bus
+        {"replay", "a.log", "--can", "can0", "--profile", "cia402"}, // both
+        {"replay", "a.log", "--for", "2", "--profile", "cia402"},    // what only a bus has
+        {"replay", "--can", "can0", "--idle", "0", "--profile", "cia402"},
+        {"replay", "a.log", "--period", "-1", "--profile", "cia402"}};
+    for (const auto& words : wrong)
+        EXPECT_EQ(run(words).code, 2) << words[1];
+    const Ended ended = run({"replay", "--can", "nocan9", "--profile", "cia402", "--json"});
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_EQ(ended.out, "");
+    const bool kernel = ended.err.find("this kernel has no CAN: `modprobe") != std::string::npos;
+    const bool interface = ended.err.find("there is no such interface") != std::string::npos;
+    EXPECT_TRUE(kernel || interface) << ended.err;
+}
+
+TEST(Replay, AStatedPeriodIsTaken) {
+    const Folder folder;
+    const std::string model = example("system1.toml");
+    const std::string log = simulated(folder, model, sine, "a.log");
+    std::vector<std::string> words = {"replay", log,    "--profile", "cia402", "--objects", "6041",
+                                      "6064",   "6074", "--model",   model,    "--json"};
+    const double found = inertia_of(run(words));
+    words.insert(words.end(), {"--period", "125.0125e-6"}); // 1e-4 more: J goes with its square
+    const Json stated = json_of(run(words));
+    EXPECT_EQ(stated.at("bus").at("period_s"), 125.0125e-6);
+    EXPECT_NEAR(stated.at("inertia").at("value").get<double>() / found, 1.0002, 2e-5);
+}
+
 TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
     const Folder folder;
     const std::string model = example("system1.toml");
@@ -101,7 +132,7 @@ TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
         EXPECT_EQ(ended.code, code) << ended.err;
         EXPECT_NE(ended.err.find(said), std::string::npos) << ended.err;
     };
-    expect({"replay", log}, 2, "--map FILE, --dbc FILE, --profile cia402");
+    expect({"replay", log}, 2, "--map FILE, --dbc FILE, --profile NAME");
     expect({"replay", log, "--profile", "cia402", "--node", "9"}, 3, "0x189");
     const std::string torn = write(folder, "torn.log", "(1.0) can0 181#00\n(1.1) can0 18#0\n");
     expect({"replay", torn, "--profile", "cia402"}, 3, "torn.log:2: ");

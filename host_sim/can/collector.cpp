@@ -1,0 +1,34 @@
+#include "can/collector.hpp"
+
+#include "capture/assemble.hpp"
+#include "capture/csv_reader.hpp" // check_columns
+
+namespace servoid::can {
+
+namespace {
+
+std::variant<BusTable, TelemetryTable> table_for(const FrameMap& map) {
+    if (map.telemetry_node) return TelemetryTable(*map.telemetry_node, map.metadata);
+    return BusTable(map);
+}
+
+} // namespace
+
+Collector::Collector(const FrameMap& map) : table_(table_for(map)) {}
+
+void Collector::add(const Frame& frame) {
+    std::visit([&](auto& table) { table.add(frame); }, table_);
+}
+
+BusCaptures Collector::captures(const std::string& path, const CaptureScales& scales) const {
+    if (const auto* telemetry = std::get_if<TelemetryTable>(&table_))
+        return telemetry->captures(path); // it brings its own scales
+    BusCaptures out;
+    for (RawTable& rows : std::get<BusTable>(table_).tables(path, out.report)) {
+        check_columns(rows);
+        out.captures.push_back(assemble(std::move(rows), scales));
+    }
+    return out;
+}
+
+} // namespace servoid::can

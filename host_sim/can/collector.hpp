@@ -1,0 +1,23 @@
+// What turns heard frames into captures, whatever they are: mapped fields, or servoid's telemetry.
+#pragma once
+
+#include "can/bus_table.hpp"
+#include "can/telemetry_table.hpp"
+
+#include <variant>
+
+namespace servoid::can {
+
+class Collector {
+  public:
+    explicit Collector(const FrameMap& map);
+    void add(const Frame& frame);
+    // path: for messages. Throws FileError (a frame that is not there) and Refusal (nothing to
+    // build a row of).
+    BusCaptures captures(const std::string& path, const CaptureScales& scales) const;
+
+  private:
+    std::variant<BusTable, TelemetryTable> table_;
+};
+
+} // namespace servoid::can
