@@ -5,6 +5,7 @@
 #include "common/file.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -65,18 +66,17 @@ void run_replay(const Options& o) {
 
 void add_replay(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("replay", "captured CAN traffic through the firmware core");
-    verb->add_option("log", o->log, "candump log (candump -l, -L)")->required();
-    add_bus_options(*verb, o->bus);
-    add_identify_options(*verb, o->identify);
-    verb->add_option("--out", o->out, "also write the longest stretch without a gap as .csv");
-    add_output_options(*verb, o->output);
-    add_examples(*verb,
-                 "  servoid replay can0.log --profile cia402 --model motor.toml\n"
-                 "  servoid replay can0.log --map drive.toml --out move.csv\n"
-                 "  servoid replay can0.log --dbc drive.dbc --torque Drive.Torque:Nm --position "
-                 "Drive.Position:rad");
-    verb->callback([o] { run_replay(*o); });
+    const Verb verb(app, "replay", "captured CAN traffic through the firmware core");
+    verb.add_option("log", o->log, "candump log (candump -l, -L)").required();
+    add_bus_options(verb, o->bus);
+    add_identify_options(verb, o->identify);
+    verb.add_option("--out", o->out, "also write the longest stretch without a gap as .csv");
+    add_output_options(verb, o->output);
+    verb.examples("  servoid replay can0.log --profile cia402 --model motor.toml\n"
+                  "  servoid replay can0.log --map drive.toml --out move.csv\n"
+                  "  servoid replay can0.log --dbc drive.dbc --torque Drive.Torque:Nm --position "
+                  "Drive.Position:rad");
+    verb.callback([o] { run_replay(*o); });
 }
 
 } // namespace servoid::cli
