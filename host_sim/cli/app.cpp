@@ -5,7 +5,8 @@
 #include "common/text.hpp"
 #include "servoid/sid_version.h"
 
-#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -44,26 +45,22 @@ bool speaks_utf8() {
     return false;
 }
 
-void add_output_options(CLI::App& verb, Output& output) {
+void add_output_options(const Verb& verb, Output& output) {
     verb.add_flag("--json", output.json, "one JSON object on stdout, nothing else there");
     verb.add_flag("--quiet", output.quiet, "no text but errors");
     const char* no_colour = std::getenv("NO_COLOR");
     output.colour = isatty(STDOUT_FILENO) && !(no_colour && *no_colour);
 }
 
-void add_capture_options(CLI::App& verb, CaptureOptions& options) {
+void add_capture_options(const Verb& verb, CaptureOptions& options) {
     verb.add_option("--map", options.map,
                     "TOML file that names foreign columns (needed for .mat files)");
     verb.add_option("--band", options.band_Hz,
                     "upper edge of the compared band, Hz (else chosen from the data)")
-        ->check(CLI::PositiveNumber);
+        .positive();
     verb.add_option("--input", options.input,
                     "the torque that acts on the axis where both were recorded: ref or measured")
-        ->check(CLI::IsMember({"ref", "measured"}));
-}
-
-void add_examples(CLI::App& verb, const std::string& examples) {
-    verb.footer("Examples:\n" + examples);
+        .one_of({"ref", "measured"});
 }
 
 namespace {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "capture/capture.hpp"
+#include "cli/verb.hpp"
 #include "compare/motion.hpp"
 #include "model/model.hpp"
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -49,13 +49,10 @@ struct CaptureOptions {
 };
 
 // Adds --json and --quiet; colour is found out.
-void add_output_options(CLI::App& verb, Output& output);
-void add_capture_options(CLI::App& verb, CaptureOptions& options);
+void add_output_options(const Verb& verb, Output& output);
+void add_capture_options(const Verb& verb, CaptureOptions& options);
 
-// "[examples]" at the end of --help.
-void add_examples(CLI::App& verb, const std::string& examples);
-
-// The verbs. Each callback does its work and throws servoid::Error where it cannot.
+// The verbs.
 void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_sweep(CLI::App& app);

@@ -38,27 +38,27 @@ can::FrameMap BusOptions::frame_map() const {
     return out;
 }
 
-void add_bus_options(CLI::App& verb, BusOptions& options) {
+void add_bus_options(const Verb& verb, BusOptions& options) {
     verb.add_option("--map", options.map, "TOML file: [signals.torque] id, start_bit, length, ...");
     verb.add_option("--dbc", options.dbc, "DBC file, with --torque and --position out of it");
     for (const char* name : {"torque", "torque_ref", "position", "position_ref", "velocity"}) {
         std::string flag = std::string("--") + name;
         std::replace(flag.begin(), flag.end(), '_', '-');
-        verb.add_option_function<std::string>(
+        verb.add_option_function(
             flag, [&options, name](const std::string& said) { options.signals[name] = said; },
             "Message.Signal of the DBC, or Message.Signal:UNIT");
     }
     verb.add_option("--profile", options.profile,
                     "cia402: SYNC 0x80 and one TPDO of a node; servoid: our telemetry")
-        ->check(CLI::IsMember({"cia402", "servoid"}));
-    verb.add_option("--node", options.node, "of the profile")->check(CLI::Range(1, 127));
-    verb.add_option("--tpdo", options.tpdo, "of the profile")->check(CLI::Range(1, 4));
+        .one_of({"cia402", "servoid"});
+    verb.add_option("--node", options.node, "of the profile").between(1, 127);
+    verb.add_option("--tpdo", options.tpdo, "of the profile").between(1, 4);
     verb.add_option("--objects", options.objects,
                     "of the TPDO, in their order (default: 6041 6064 6077)");
     verb.add_option("--sync", options.sync, "identifier of the frame at each sampling instant");
     verb.add_option("--period", options.period_s,
                     "the cycle, s, where it is known (else found from the arrivals)")
-        ->check(CLI::PositiveNumber);
+        .positive();
 }
 
 } // namespace servoid::cli

@@ -19,6 +19,6 @@ struct BusOptions {
 };
 
 // map: where --map of the verb is kept.
-void add_bus_options(CLI::App& verb, BusOptions& options);
+void add_bus_options(const Verb& verb, BusOptions& options);
 
 } // namespace servoid::cli

@@ -1,6 +1,7 @@
 #include "cli/bus_output.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -5,6 +5,7 @@
 #include "diagnose/sanity.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <utility>
 

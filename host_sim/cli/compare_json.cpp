@@ -1,6 +1,8 @@
 #include "cli/compare_output.hpp"
 #include "cli/parameters.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace servoid::cli {

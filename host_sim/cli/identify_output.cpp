@@ -4,6 +4,7 @@
 #include "effects/effect.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -80,18 +81,17 @@ IdentifyOptions IdentifyArguments::options(const Model* known) const {
     return out;
 }
 
-void add_identify_options(CLI::App& verb, IdentifyArguments& a) {
+void add_identify_options(const Verb& verb, IdentifyArguments& a) {
     verb.add_option("--model", a.model,
                     "model file: its scales, and its Coulomb friction is taken out of the answer");
     verb.add_option("--frequency", a.frequencies, "Hz, one or more (else found)");
     verb.add_option("--window", a.window,
                     "FIRST LAST: periods after the start (else 8 10, or the last two there are)")
-        ->expected(2);
+        .count(2);
     verb.add_option("--method", a.method,
                     "trend under the sine: cubic, quadratic, linear, constant, or plain dft")
-        ->check(CLI::IsMember({"cubic", "quadratic", "linear", "constant", "dft"}));
-    verb.add_option("--input", a.input, "ref or measured torque")
-        ->check(CLI::IsMember({"ref", "measured"}));
+        .one_of({"cubic", "quadratic", "linear", "constant", "dft"});
+    verb.add_option("--input", a.input, "ref or measured torque").one_of({"ref", "measured"});
 }
 
 std::vector<Identification> identify_all(const std::vector<Capture>& captures,

@@ -15,7 +15,7 @@ struct IdentifyArguments {
     IdentifyOptions options(const Model* model) const;
 };
 
-void add_identify_options(CLI::App& verb, IdentifyArguments& arguments);
+void add_identify_options(const Verb& verb, IdentifyArguments& arguments);
 
 // Every frequency of every capture, by the firmware core.
 std::vector<Identification> identify_all(const std::vector<Capture>& captures,

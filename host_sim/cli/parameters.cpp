@@ -3,6 +3,7 @@
 #include "effects/catalogue.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <numbers>

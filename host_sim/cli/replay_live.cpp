@@ -34,19 +34,19 @@ void save_capture(const can::Recorder& recorder, const can::Bus& bus, const Live
 
 } // namespace
 
-void add_live_options(CLI::App& verb, LiveOptions& options) {
-    CLI::Option* can = verb.add_option("--can", options.interface,
-                                       "listen to this interface in place of a log: can0, vcan0");
+void add_live_options(const Verb& verb, LiveOptions& options) {
+    const Argument can = verb.add_option("--can", options.interface,
+                                         "listen to this interface in place of a log: can0, vcan0");
     verb.add_option("--for", options.for_s, "s of recording (else until the drive falls silent)")
-        ->check(CLI::PositiveNumber)
-        ->needs(can);
+        .positive()
+        .needs(can);
     verb.add_option("--idle", options.idle_s, "s of silence that end the recording (default 2)")
-        ->check(CLI::PositiveNumber)
-        ->needs(can);
+        .positive()
+        .needs(can);
     verb.add_option("--wait", options.wait_s, "s to wait for the first frame (default 10)")
-        ->check(CLI::PositiveNumber)
-        ->needs(can);
-    verb.add_option("--log", options.log, "also write what was heard as a candump log")->needs(can);
+        .positive()
+        .needs(can);
+    verb.add_option("--log", options.log, "also write what was heard as a candump log").needs(can);
 }
 
 can::BusCaptures record_live(const LiveOptions& options, const can::FrameMap& map,

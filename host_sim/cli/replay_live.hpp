@@ -15,7 +15,7 @@ struct LiveOptions {
     double idle_s = 2, wait_s = 10;
 };
 
-void add_live_options(CLI::App& verb, LiveOptions& options);
+void add_live_options(const Verb& verb, LiveOptions& options);
 
 // Listens until the move is over; SIGINT and SIGTERM end it too. Where the bus fails, what came
 // before is saved (log; out: the longest stretch without a gap as CSV, where there is one) and

@@ -1,14 +1,15 @@
 // servoid add: one more effect, fitted with everything else.
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
-#include "cli/custom_argument.hpp"
 #include "cli/parameters.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "compare/compare.hpp"
 #include "diagnose/add_effect.hpp"
+#include "effects/custom_argument.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -65,21 +66,21 @@ void run_add(const Options& o) {
 
 void add_add(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("add", "add one effect, fit it and everything else again");
-    verb->add_option(
+    const Verb verb(app, "add", "add one effect, fit it and everything else again");
+    verb.add_option(
             "effect", o->effect,
             "its name, see: servoid effects; or a law: custom.NAME=LAW[;PARAMETER=START...]")
-        ->required();
-    verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
-    verb->add_option("--out", o->out, "where the larger model is written (- for stdout)");
-    add_capture_options(*verb, o->captures);
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid add viscous model.toml run.csv --out better.toml\n"
-                        "  servoid add coulomb better.toml run.csv --out better.toml --json\n"
-                        "  servoid add 'custom.cubic=k*theta^3' model.toml run.csv --out m2.toml\n"
-                        "  servoid add 'custom.s=k*tanh(v/vs);vs=0.1' model.toml run.csv");
-    verb->callback([o] { run_add(*o); });
+        .required();
+    verb.add_option("model", o->model, "model file (TOML)").required();
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log)").required();
+    verb.add_option("--out", o->out, "where the larger model is written (- for stdout)");
+    add_capture_options(verb, o->captures);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid add viscous model.toml run.csv --out better.toml\n"
+                  "  servoid add coulomb better.toml run.csv --out better.toml --json\n"
+                  "  servoid add 'custom.cubic=k*theta^3' model.toml run.csv --out m2.toml\n"
+                  "  servoid add 'custom.s=k*tanh(v/vs);vs=0.1' model.toml run.csv");
+    verb.callback([o] { run_add(*o); });
 }
 
 } // namespace servoid::cli

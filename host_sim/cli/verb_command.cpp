@@ -11,6 +11,7 @@
 #include "node/master.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <cmath>
@@ -283,67 +284,67 @@ void run_abort(const Options& o) {
     o.output.line(fmt::format("node {}: its axis is held", o.link.node));
 }
 
-void add_link_options(CLI::App& verb, Options& o) {
-    verb.add_option("--can", o.interface, "interface: can0, vcan0")->required();
-    verb.add_option("--node", o.link.node, "number of the drive (default 1)")
-        ->check(CLI::Range(1, 127));
+void add_link_options(const Verb& verb, Options& o) {
+    verb.add_option("--can", o.interface, "interface: can0, vcan0").required();
+    verb.add_option("--node", o.link.node, "number of the drive (default 1)").between(1, 127);
     verb.add_option("--master", o.link.master, "number of this master (default 127)")
-        ->check(CLI::Range(1, 127));
+        .between(1, 127);
     verb.add_option("--timeout", o.link.timeout_ms,
                     "ms without our heartbeat after which the drive holds its axis (default 500)")
-        ->check(CLI::Range(20, 60000));
+        .between(20, 60000);
     verb.add_flag("--free", o.link.free_running, "the drive is free-running: give it SYNC");
     add_output_options(verb, o.output);
 }
 
-CLI::App* add_run(CLI::App& verb, const char* name, const char* what, Options& o) {
-    CLI::App* sub = verb.add_subcommand(name, what);
-    sub->fallthrough();
-    sub->add_option("--out", o.out, "write what was recorded as .csv");
-    return sub;
+void add_out(const Verb& run, Options& o) {
+    run.add_option("--out", o.out, "write what was recorded as .csv");
 }
 
-void add_identify_run(CLI::App& verb, const std::shared_ptr<Options>& o) {
-    CLI::App* sub = add_run(verb, "identify", "a session: inertia and viscous friction", *o);
-    sub->add_option("--amplitude", o->amplitude, "rad or m of the reference: this moves the axis")
-        ->required()
-        ->check(CLI::PositiveNumber);
-    sub->add_option("--frequency", o->frequencies, "Hz, one or more (default 50)")
-        ->check(CLI::PositiveNumber);
-    sub->add_option("--windows", o->session.windows, "at each frequency (default 1)")
-        ->check(CLI::Range(1, 8));
-    sub->add_option("--ramp", o->session.ramp_periods, "periods of a soft start (default 0)")
-        ->check(CLI::Range(0, 255));
-    sub->callback([o] { run_identify(*o); });
+void add_identify_run(const Verb& verb, const std::shared_ptr<Options>& o) {
+    const Verb run(verb, "identify", "a session: inertia and viscous friction");
+    run.add_option("--amplitude", o->amplitude, "rad or m of the reference: this moves the axis")
+        .required()
+        .positive();
+    run.add_option("--frequency", o->frequencies, "Hz, one or more (default 50)").positive();
+    run.add_option("--windows", o->session.windows, "at each frequency (default 1)").between(1, 8);
+    run.add_option("--ramp", o->session.ramp_periods, "periods of a soft start (default 0)")
+        .between(0, 255);
+    add_out(run, *o);
+    run.callback([o] { run_identify(*o); });
+}
+
+void add_move_run(const Verb& verb, const std::shared_ptr<Options>& o) {
+    const Verb run(verb, "move", "any experiment, streamed");
+    run.add_option("experiment", o->experiment, "as simulate --experiment").required();
+    add_out(run, *o);
+    run.callback([o] { run_move(*o); });
+}
+
+void add_next_run(const Verb& verb, const std::shared_ptr<Options>& o) {
+    const Verb run(verb, "next", "the move that diagnose proposes");
+    run.add_option("model", o->model, "model file (TOML)").required();
+    run.add_option("captures", o->captures.files, "captures so far").required();
+    add_capture_options(run, o->captures);
+    add_out(run, *o);
+    run.callback([o] { run_next(*o); });
 }
 
 } // namespace
 
 void add_command(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("command", "run sessions and moves on a drive on the bus");
-    verb->require_subcommand(1);
-    add_link_options(*verb, *o);
-    add_identify_run(*verb, o);
-    CLI::App* move = add_run(*verb, "move", "any experiment, streamed", *o);
-    move->add_option("experiment", o->experiment, "as simulate --experiment")->required();
-    move->callback([o] { run_move(*o); });
-    CLI::App* next = add_run(*verb, "next", "the move that diagnose proposes", *o);
-    next->add_option("model", o->model, "model file (TOML)")->required();
-    next->add_option("captures", o->captures.files, "captures so far")->required();
-    add_capture_options(*next, o->captures);
-    next->callback([o] { run_next(*o); });
-    verb->add_subcommand("status", "what the drive does")->fallthrough()->callback([o] {
-        run_status(*o);
-    });
-    verb->add_subcommand("abort", "hold the axis now")->fallthrough()->callback([o] {
-        run_abort(*o);
-    });
-    add_examples(
-        *verb, "  servoid command --can can0 identify --amplitude 0.5 --frequency 50 --out a.csv\n"
-               "  servoid command --can can0 move trapezoid:stroke=6.28,velocity=40 --out b.csv\n"
-               "  servoid command --can can0 next model.toml b.csv --out c.csv\n"
-               "  servoid command --can can0 abort");
+    const Verb verb(app, "command", "run sessions and moves on a drive on the bus");
+    add_link_options(verb, *o);
+    add_identify_run(verb, o);
+    add_move_run(verb, o);
+    add_next_run(verb, o);
+    Verb(verb, "status", "what the drive does").callback([o] { run_status(*o); });
+    Verb(verb, "abort", "hold the axis now").callback([o] { run_abort(*o); });
+    verb.examples(
+        "  servoid command --can can0 identify --amplitude 0.5 --frequency 50 --out a.csv\n"
+        "  servoid command --can can0 move trapezoid:stroke=6.28,velocity=40 --out b.csv\n"
+        "  servoid command --can can0 next model.toml b.csv --out c.csv\n"
+        "  servoid command --can can0 abort");
 }
 
 } // namespace servoid::cli

@@ -5,6 +5,8 @@
 #include "cli/parameters.hpp"
 #include "compare/compare.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <memory>
 
 namespace servoid::cli {
@@ -36,16 +38,15 @@ void run_compare(const Options& o) {
 
 void add_compare(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("compare", "how far model and measurement are apart, and "
-                                                   "where");
-    verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
-    add_capture_options(*verb, o->captures);
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid compare model.toml run.csv\n"
-                        "  servoid compare model.toml a.csv b.csv --band 40 --json\n"
-                        "  servoid compare emps.toml DATA_EMPS.mat --map emps_map.toml");
-    verb->callback([o] { run_compare(*o); });
+    const Verb verb(app, "compare", "how far model and measurement are apart, and where");
+    verb.add_option("model", o->model, "model file (TOML)").required();
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log)").required();
+    add_capture_options(verb, o->captures);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid compare model.toml run.csv\n"
+                  "  servoid compare model.toml a.csv b.csv --band 40 --json\n"
+                  "  servoid compare emps.toml DATA_EMPS.mat --map emps_map.toml");
+    verb.callback([o] { run_compare(*o); });
 }
 
 } // namespace servoid::cli

@@ -7,6 +7,7 @@
 #include "diagnose/diagnose.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <iostream>
@@ -245,29 +246,28 @@ void run_refine(const RefineOptions& o) {
 
 void add_diagnose(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("diagnose", "which physical effect is missing");
-    verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
-    add_capture_options(*verb, o->captures);
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid diagnose model.toml run.csv\n"
-                        "  servoid diagnose model.toml a.csv b.csv --json");
-    verb->callback([o] { run_diagnose(*o); });
+    const Verb verb(app, "diagnose", "which physical effect is missing");
+    verb.add_option("model", o->model, "model file (TOML)").required();
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log)").required();
+    add_capture_options(verb, o->captures);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid diagnose model.toml run.csv\n"
+                  "  servoid diagnose model.toml a.csv b.csv --json");
+    verb.callback([o] { run_diagnose(*o); });
 }
 
 void add_refine(CLI::App& app) {
     auto o = std::make_shared<RefineOptions>();
-    CLI::App* verb =
-        app.add_subcommand("refine", "diagnose and add until nothing more is justified");
-    verb->add_option("model", o->model, "model file (TOML)")->required();
-    verb->add_option("captures", o->captures.files, "captures (.csv, .mat, .log)")->required();
-    verb->add_option("--validate", o->validate, "captures that are never fitted");
-    verb->add_option("--out", o->out, "where the refined model is written (- for stdout)");
-    add_capture_options(*verb, o->captures);
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid refine model.toml run.csv --out better.toml\n"
-                        "  servoid refine model.toml a.csv --validate b.csv --json");
-    verb->callback([o] { run_refine(*o); });
+    const Verb verb(app, "refine", "diagnose and add until nothing more is justified");
+    verb.add_option("model", o->model, "model file (TOML)").required();
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log)").required();
+    verb.add_option("--validate", o->validate, "captures that are never fitted");
+    verb.add_option("--out", o->out, "where the refined model is written (- for stdout)");
+    add_capture_options(verb, o->captures);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid refine model.toml run.csv --out better.toml\n"
+                  "  servoid refine model.toml a.csv --validate b.csv --json");
+    verb.callback([o] { run_refine(*o); });
 }
 
 } // namespace servoid::cli

@@ -7,6 +7,7 @@
 #include "node/simulated_node.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <memory>
@@ -105,36 +106,33 @@ void run_drive(const Options& o) {
 
 void add_drive(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("drive", "a simulated drive on a CAN bus");
-    verb->add_option("model", o->model, "model file (TOML) with a [controller]")->required();
-    verb->add_option("--can", o->interface, "interface: can0, vcan0")->required();
-    verb->add_option("--node", o->node.node, "number of the node (default 1)")
-        ->check(CLI::Range(1, 127));
-    verb->add_flag("--free", o->node.free_running,
-                   "free-running: 40 control periods for each SYNC of the master");
-    verb->add_option("--timeout", o->node.master_timeout_ms,
-                     "ms without the master's heartbeat after which the axis is held (default 500)")
-        ->check(CLI::Range(1, 60000));
-    verb->add_option("--stroke", o->node.stroke,
-                     "rad or m from the start of a move beyond which the axis is held")
-        ->check(CLI::PositiveNumber);
-    verb->add_option("--torque-noise", o->node.drive.torque_noise,
-                     "N·m or N: standard deviation of a torque that disturbs the axis, a sample")
-        ->check(CLI::NonNegativeNumber);
-    verb->add_option("--seed", o->node.drive.seed, "of the noise");
-    CLI::Option* mystery = verb->add_option(
+    const Verb verb(app, "drive", "a simulated drive on a CAN bus");
+    verb.add_option("model", o->model, "model file (TOML) with a [controller]").required();
+    verb.add_option("--can", o->interface, "interface: can0, vcan0").required();
+    verb.add_option("--node", o->node.node, "number of the node (default 1)").between(1, 127);
+    verb.add_flag("--free", o->node.free_running,
+                  "free-running: 40 control periods for each SYNC of the master");
+    verb.add_option("--timeout", o->node.master_timeout_ms,
+                    "ms without the master's heartbeat after which the axis is held (default 500)")
+        .between(1, 60000);
+    verb.add_option("--stroke", o->node.stroke,
+                    "rad or m from the start of a move beyond which the axis is held")
+        .positive();
+    verb.add_option("--torque-noise", o->node.drive.torque_noise,
+                    "N·m or N: standard deviation of a torque that disturbs the axis, a sample")
+        .not_negative();
+    verb.add_option("--seed", o->node.drive.seed, "of the noise");
+    const Argument mystery = verb.add_option(
         "--mystery", o->mystery, "hide one effect that the model lacks, for --hidden-for's move");
-    verb->add_option("--hidden-for", o->hidden_for,
-                     "the move that shows the hidden effect (as simulate --experiment)")
-        ->needs(mystery);
-    mystery->needs("--hidden-for");
-    verb->add_option("--for", o->for_s, "s after which it ends (else Ctrl-C)")
-        ->check(CLI::PositiveNumber);
-    add_output_options(*verb, o->output);
-    add_examples(*verb,
-                 "  servoid drive examples/system1.toml --can vcan0\n"
-                 "  servoid drive motor.toml --can vcan0 --mystery 3 --hidden-for trapezoid");
-    verb->callback([o] { run_drive(*o); });
+    mystery.needs(
+        verb.add_option("--hidden-for", o->hidden_for,
+                        "the move that shows the hidden effect (as simulate --experiment)")
+            .needs(mystery));
+    verb.add_option("--for", o->for_s, "s after which it ends (else Ctrl-C)").positive();
+    add_output_options(verb, o->output);
+    verb.examples("  servoid drive examples/system1.toml --can vcan0\n"
+                  "  servoid drive motor.toml --can vcan0 --mystery 3 --hidden-for trapezoid");
+    verb.callback([o] { run_drive(*o); });
 }
 
 } // namespace servoid::cli

@@ -7,6 +7,7 @@
 #include "report/text_plot.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <memory>
@@ -109,11 +110,11 @@ void run_effects(const Options& o) {
 
 void add_effects(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("effects", "the catalogue of physical effects");
-    verb->add_option("name", o->name, "one effect: law, parameters, units, signature, reference");
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid effects\n  servoid effects coulomb\n  servoid effects --json");
-    verb->callback([o] { run_effects(*o); });
+    const Verb verb(app, "effects", "the catalogue of physical effects");
+    verb.add_option("name", o->name, "one effect: law, parameters, units, signature, reference");
+    add_output_options(verb, o->output);
+    verb.examples("  servoid effects\n  servoid effects coulomb\n  servoid effects --json");
+    verb.callback([o] { run_effects(*o); });
 }
 
 } // namespace servoid::cli

@@ -4,6 +4,7 @@
 #include "identify/friction.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -94,19 +95,19 @@ void run_friction(const Options& o) {
 
 void add_friction(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand(
-        "friction", "viscous and Coulomb friction and constant torque from constant-speed runs");
-    verb->add_option("captures", o->captures.files,
-                     "captures at constant speed, or with segments or plateaus of it")
-        ->required();
-    verb->add_option("--model", o->model, "model file: scales for captures in A or per mille");
-    verb->add_option("--map", o->captures.map, "TOML file that names foreign columns");
-    verb->add_option("--input", o->captures.input, "ref or measured torque")
-        ->check(CLI::IsMember({"ref", "measured"}));
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid friction steady_*.csv\n"
-                        "  servoid friction runs.csv --json");
-    verb->callback([o] { run_friction(*o); });
+    const Verb verb(app, "friction",
+                    "viscous and Coulomb friction and constant torque from constant-speed runs");
+    verb.add_option("captures", o->captures.files,
+                    "captures at constant speed, or with segments or plateaus of it")
+        .required();
+    verb.add_option("--model", o->model, "model file: scales for captures in A or per mille");
+    verb.add_option("--map", o->captures.map, "TOML file that names foreign columns");
+    verb.add_option("--input", o->captures.input, "ref or measured torque")
+        .one_of({"ref", "measured"});
+    add_output_options(verb, o->output);
+    verb.examples("  servoid friction steady_*.csv\n"
+                  "  servoid friction runs.csv --json");
+    verb.callback([o] { run_friction(*o); });
 }
 
 } // namespace servoid::cli

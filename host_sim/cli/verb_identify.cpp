@@ -1,6 +1,8 @@
 // servoid identify: inertia of a captured periodic move, by the firmware core.
 #include "cli/identify_output.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <memory>
 
 namespace servoid::cli {
@@ -26,18 +28,17 @@ void run_identify(const Options& o) {
 
 void add_identify(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand(
-        "identify", "inertia, viscous friction and constant torque, by the firmware core itself");
-    verb->add_option("captures", o->captures.files,
-                     "captures (.csv, .mat, .log) of a periodic move")
-        ->required();
-    verb->add_option("--map", o->captures.map, "TOML file that names foreign columns");
-    add_identify_options(*verb, o->identify);
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid identify sine.csv\n"
-                        "  servoid identify sine.csv --frequency 100 --json\n"
-                        "  servoid identify bench.csv --model motor.toml --window 2 10");
-    verb->callback([o] { run_identify(*o); });
+    const Verb verb(app, "identify",
+                    "inertia, viscous friction and constant torque, by the firmware core itself");
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log) of a periodic move")
+        .required();
+    verb.add_option("--map", o->captures.map, "TOML file that names foreign columns");
+    add_identify_options(verb, o->identify);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid identify sine.csv\n"
+                  "  servoid identify sine.csv --frequency 100 --json\n"
+                  "  servoid identify bench.csv --model motor.toml --window 2 10");
+    verb.callback([o] { run_identify(*o); });
 }
 
 } // namespace servoid::cli

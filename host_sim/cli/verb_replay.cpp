@@ -7,6 +7,8 @@
 #include "common/error.hpp"
 #include "common/file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <memory>
 
 namespace servoid::cli {
@@ -45,21 +47,19 @@ void run_replay(const Options& o) {
 
 void add_replay(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb =
-        app.add_subcommand("replay", "captured or live CAN traffic through the firmware core");
-    verb->add_option("LOG", o->log, "candump log (candump -l, -L)");
-    add_live_options(*verb, o->live);
-    add_bus_options(*verb, o->bus);
-    add_identify_options(*verb, o->identify);
-    verb->add_option("--out", o->out, "also write the longest stretch without a gap as .csv");
-    add_output_options(*verb, o->output);
-    add_examples(*verb,
-                 "  servoid replay can0.log --profile cia402 --model motor.toml\n"
-                 "  servoid replay can0.log --map drive.toml --out move.csv\n"
-                 "  servoid replay --can can0 --map drive.toml --for 10 --log heard.log\n"
-                 "  servoid replay can0.log --dbc drive.dbc --torque Drive.Torque:Nm --position "
-                 "Drive.Position:rad");
-    verb->callback([o] { run_replay(*o); });
+    const Verb verb(app, "replay", "captured or live CAN traffic through the firmware core");
+    verb.add_option("LOG", o->log, "candump log (candump -l, -L)");
+    add_live_options(verb, o->live);
+    add_bus_options(verb, o->bus);
+    add_identify_options(verb, o->identify);
+    verb.add_option("--out", o->out, "also write the longest stretch without a gap as .csv");
+    add_output_options(verb, o->output);
+    verb.examples("  servoid replay can0.log --profile cia402 --model motor.toml\n"
+                  "  servoid replay can0.log --map drive.toml --out move.csv\n"
+                  "  servoid replay --can can0 --map drive.toml --for 10 --log heard.log\n"
+                  "  servoid replay can0.log --dbc drive.dbc --torque Drive.Torque:Nm --position "
+                  "Drive.Position:rad");
+    verb.callback([o] { run_replay(*o); });
 }
 
 } // namespace servoid::cli

@@ -5,6 +5,7 @@
 #include "mystery/secret.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -57,14 +58,14 @@ void run_reveal(const Options& o) {
 
 void add_reveal(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("reveal", "what simulate --mystery hid in a capture");
-    verb->add_option("capture", o->capture, "the capture (.csv)")->required();
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid simulate system1.toml --experiment trapezoid --mystery 3 --out "
-                        "m.csv\n"
-                        "  servoid reveal m.csv\n"
-                        "  servoid reveal m.csv --json");
-    verb->callback([o] { run_reveal(*o); });
+    const Verb verb(app, "reveal", "what simulate --mystery hid in a capture");
+    verb.add_option("capture", o->capture, "the capture (.csv)").required();
+    add_output_options(verb, o->output);
+    verb.examples("  servoid simulate system1.toml --experiment trapezoid --mystery 3 --out "
+                  "m.csv\n"
+                  "  servoid reveal m.csv\n"
+                  "  servoid reveal m.csv --json");
+    verb.callback([o] { run_reveal(*o); });
 }
 
 } // namespace servoid::cli

@@ -8,6 +8,7 @@
 #include "plant/simulate.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -64,27 +65,27 @@ void run_simulate(const Options& o) {
 
 void add_simulate(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("simulate", "a capture of the simulated drive");
-    verb->add_option("model", o->model, "model file (TOML) with a [controller]")->required();
-    verb->add_option("--experiment", o->experiment,
-                     "KIND:KEY=VALUE,... or a .toml file; kinds: sine, multisine, trapezoid, "
-                     "constant_speed, speeds, staircase")
-        ->required();
-    verb->add_option("--seed", o->seed, "of the noise");
-    verb->add_option("--mystery", o->mystery,
-                     "hide one effect that the model lacks; this seed chooses it (servoid reveal "
-                     "tells)");
-    verb->add_option("--out", o->out,
-                     "capture file (.csv, or .log as candump writes it), - for stdout")
-        ->required();
-    add_output_options(*verb, o->output);
-    add_examples(
-        *verb, "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"
-               "  (an experiment without a known key answers with the keys of its kind)\n"
-               "  servoid simulate system1.toml --experiment "
-               "trapezoid:stroke=6.28,velocity=50,cycles=4,torque_noise=1e-3 --seed 7 --out b.csv\n"
-               "  servoid simulate system1.toml --experiment trapezoid --mystery 3 --out m.csv");
-    verb->callback([o] { run_simulate(*o); });
+    const Verb verb(app, "simulate", "a capture of the simulated drive");
+    verb.add_option("model", o->model, "model file (TOML) with a [controller]").required();
+    verb.add_option("--experiment", o->experiment,
+                    "KIND:KEY=VALUE,... or a .toml file; kinds: sine, multisine, trapezoid, "
+                    "constant_speed, speeds, staircase")
+        .required();
+    verb.add_option("--seed", o->seed, "of the noise");
+    verb.add_option("--mystery", o->mystery,
+                    "hide one effect that the model lacks; this seed chooses it (servoid reveal "
+                    "tells)");
+    verb.add_option("--out", o->out,
+                    "capture file (.csv, or .log as candump writes it), - for stdout")
+        .required();
+    add_output_options(verb, o->output);
+    verb.examples(
+        "  servoid simulate system1.toml --experiment sine:frequency_Hz=100 --out a.csv\n"
+        "  (an experiment without a known key answers with the keys of its kind)\n"
+        "  servoid simulate system1.toml --experiment "
+        "trapezoid:stroke=6.28,velocity=50,cycles=4,torque_noise=1e-3 --seed 7 --out b.csv\n"
+        "  servoid simulate system1.toml --experiment trapezoid --mystery 3 --out m.csv");
+    verb.callback([o] { run_simulate(*o); });
 }
 
 } // namespace servoid::cli

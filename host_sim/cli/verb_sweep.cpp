@@ -5,6 +5,7 @@
 #include "identify/sweep.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -82,26 +83,26 @@ void run_sweep(Options o) {
 
 void add_sweep(CLI::App& app) {
     auto o = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("sweep", "the paper's experiment over frequency");
-    verb->add_option("model", o->model, "model file (TOML) with a [controller]")->required();
-    verb->add_option("--from", o->sweep.from_Hz, "Hz")->check(CLI::PositiveNumber);
-    verb->add_option("--to", o->sweep.to_Hz, "Hz")->check(CLI::PositiveNumber);
-    verb->add_option("--step", o->sweep.step_Hz, "Hz")->check(CLI::PositiveNumber);
-    verb->add_option("--amplitude", o->sweep.amplitude, "of the position reference, rad or m")
-        ->check(CLI::PositiveNumber);
-    verb->add_option("--torque-noise", o->sweep.torque_noise,
-                     "standard deviation of a torque that disturbs the axis, per sample")
-        ->check(CLI::NonNegativeNumber);
-    verb->add_option("--encoder-bits", o->sweep.encoder_bits, "instead of the model's sensor")
-        ->check(CLI::Range(8, 26));
-    verb->add_option("--method", o->method, "cubic (trend-free) or dft (plain)")
-        ->check(CLI::IsMember({"cubic", "dft"}));
-    verb->add_option("--seed", o->sweep.seed, "of the noise");
-    add_output_options(*verb, o->output);
-    add_examples(*verb, "  servoid sweep system1.toml\n"
-                        "  servoid sweep system2.toml --from 10 --to 200 --step 10 --json\n"
-                        "  servoid sweep system1.toml --encoder-bits 15 --method dft");
-    verb->callback([o] { run_sweep(*o); });
+    const Verb verb(app, "sweep", "the paper's experiment over frequency");
+    verb.add_option("model", o->model, "model file (TOML) with a [controller]").required();
+    verb.add_option("--from", o->sweep.from_Hz, "Hz").positive();
+    verb.add_option("--to", o->sweep.to_Hz, "Hz").positive();
+    verb.add_option("--step", o->sweep.step_Hz, "Hz").positive();
+    verb.add_option("--amplitude", o->sweep.amplitude, "of the position reference, rad or m")
+        .positive();
+    verb.add_option("--torque-noise", o->sweep.torque_noise,
+                    "standard deviation of a torque that disturbs the axis, per sample")
+        .not_negative();
+    verb.add_option("--encoder-bits", o->sweep.encoder_bits, "instead of the model's sensor")
+        .between(8, 26);
+    verb.add_option("--method", o->method, "cubic (trend-free) or dft (plain)")
+        .one_of({"cubic", "dft"});
+    verb.add_option("--seed", o->sweep.seed, "of the noise");
+    add_output_options(verb, o->output);
+    verb.examples("  servoid sweep system1.toml\n"
+                  "  servoid sweep system2.toml --from 10 --to 200 --step 10 --json\n"
+                  "  servoid sweep system1.toml --encoder-bits 15 --method dft");
+    verb.callback([o] { run_sweep(*o); });
 }
 
 } // namespace servoid::cli

@@ -1,11 +1,11 @@
 // custom laws in a model: simulated, found again in a capture, refused with a reason.
-#include "cli/custom_argument.hpp"
 #include "common/error.hpp"
 #include "compare/compare.hpp"
 #include "compare/regression.hpp"
 #include "diagnose/add_effect.hpp"
 #include "diagnose/diagnose.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/custom_argument.hpp"
 #include "plant/axis_engine.hpp"
 #include "plant/simulate.hpp"
 #include "unit/motion_helpers.hpp"
@@ -297,13 +297,13 @@ TEST(CustomRefused, ParametersThatNothingTellsApart) {
 }
 
 TEST(CustomAdded, FromTheCommandLine) {
-    const EffectTerm term = cli::parse_custom("custom.s = k*tanh(v/vs) ; vs=0.1");
+    const EffectTerm term = parse_custom("custom.s = k*tanh(v/vs) ; vs=0.1");
     EXPECT_EQ(term.name, "custom.s");
     EXPECT_EQ(term.law, "k*tanh(v/vs)");
     EXPECT_EQ(term.parameters, (std::map<std::string, double>{{"k", 1}, {"vs", 0.1}}));
-    EXPECT_TRUE(cli::is_custom("custom.s=v"));
-    EXPECT_TRUE(cli::is_custom("custom"));
-    EXPECT_FALSE(cli::is_custom("viscous"));
+    EXPECT_TRUE(is_custom("custom.s=v"));
+    EXPECT_TRUE(is_custom("custom"));
+    EXPECT_FALSE(is_custom("viscous"));
 }
 
 TEST(CustomAdded, WrongArgumentsSayWhatWasExpected) {
@@ -322,7 +322,7 @@ TEST(CustomAdded, WrongArgumentsSayWhatWasExpected) {
     };
     for (const auto& [argument, message] : wrong)
         try {
-            cli::parse_custom(argument);
+            parse_custom(argument);
             ADD_FAILURE() << argument;
         } catch (const UsageError& error) {
             EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();

@@ -123,15 +123,15 @@ TEST(Recorder, TheTableAndTheLogHoldTheMappedFrames) {
     options.begun = [&] { begun = true; };
     recorder.run(*b, options);
     EXPECT_TRUE(begun);
-    const BusCaptures live = captures_of(recorder.table(), "vcan0", {});
+    const BusCaptures live = recorder.table().captures("vcan0", {});
     ASSERT_EQ(live.captures.size(), 1u);
     EXPECT_EQ(live.captures[0].rows(), 100u);
     EXPECT_EQ(live.report.frames, 100);
-    BusTable again(counted_map());
+    Collector again(counted_map());
     CandumpReader reader(recorder.log(), "log");
     for (Frame frame; reader.next(frame);)
         again.add(frame);
-    const BusCaptures log = captures_of(again, "log", {});
+    const BusCaptures log = again.captures("log", {});
     ASSERT_EQ(log.captures.size(), 1u);
     EXPECT_EQ(log.captures[0].position, live.captures[0].position);
     EXPECT_EQ(log.captures[0].torque, live.captures[0].torque);

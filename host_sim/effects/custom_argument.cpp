@@ -1,4 +1,4 @@
-#include "cli/custom_argument.hpp"
+#include "effects/custom_argument.hpp"
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace servoid::cli {
+namespace servoid {
 
 namespace {
 
@@ -61,4 +61,4 @@ EffectTerm parse_custom(const std::string& argument) {
     return term;
 }
 
-} // namespace servoid::cli
+} // namespace servoid

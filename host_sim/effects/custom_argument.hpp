@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace servoid::cli {
+namespace servoid {
 
 // Whether an EFFECT argument is meant as a law.
 bool is_custom(const std::string& argument);
@@ -14,4 +14,4 @@ bool is_custom(const std::string& argument);
 // the list behind the law says otherwise. Throws UsageError.
 EffectTerm parse_custom(const std::string& argument);
 
-} // namespace servoid::cli
+} // namespace servoid
