@@ -13,6 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 constexpr std::uint32_t kSync = 0x80;
+constexpr int kDrained = 10000; // frames: a flood must not hold us up
 
 std::string reason_of(std::uint32_t code) {
     static const std::map<std::uint32_t, std::string> known = {
@@ -104,11 +105,18 @@ bool Link::listen(Clock::time_point until, const std::function<bool()>& enough) 
     return true;
 }
 
+void Link::drain() {
+    can::Frame frame;
+    for (int i = 0; i < kDrained && bus_.receive(frame, std::chrono::nanoseconds(0)); ++i)
+        take(frame);
+}
+
 // An answer may be to a request that was repeated: one to another object is passed over.
 std::uint32_t Link::request(const can::Frame& frame) {
     ++report_.requests;
     for (int i = 0; i < options_.tries; ++i) {
         if (i > 0) ++report_.repeated_requests;
+        drain(); // answers to earlier requests, or to somebody else's
         answer_.reset();
         bus_.send(frame);
         const auto until = Clock::now() + milliseconds(options_.answer_ms);

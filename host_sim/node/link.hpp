@@ -68,6 +68,7 @@ class Link {
     void heartbeat();
     void sync();
     void take(const can::Frame& frame);
+    void drain();
     bool listen(Clock::time_point until, const std::function<bool()>& enough);
     std::uint32_t request(const can::Frame& frame);
 

@@ -110,6 +110,8 @@ void Master::read_scales() {
 
 void Master::claim() try {
     link_.write(kCommand, 1, token_, 4);
+    // Two masters at once hear each other's answers: what counts is what the node says now.
+    if (link_.read(kCommand, 1) != token_) throw SdoAbort(kNotNow, "claim");
     claimed_ = true;
 } catch (const SdoAbort& no) {
     if (no.code() != kNotNow) throw;
