@@ -2,13 +2,14 @@
 # The documentation, run: every fenced block of README.md, DESIGN.md, SPEC.md, docs/*.md and
 # boards/*/README.md that a reader would paste into a shell.
 #
-#   SERVOID_PROGRAM=... tests/docs/test_docs.sh [--measured]
+#   SERVOID_PROGRAM=... tests/docs/test_docs.sh [--measured | --live]
 #
 # What a ```sh block is for stands behind `sh`:
 #   runnable       run with `bash -eu` in an empty folder that holds examples/, one folder a document,
 #                  its blocks in order; the program is on the PATH as `servoid`
 #   measured       the same, and only where the measured data are (SERVOID_DATA_DIR, default
 #                  ../shared/data): run by `--measured`
+#   live           the same, on a machine with vcan0 (tools/with-vcan): run by `--live`
 #   exit=N         with one of these: the block ends with status N
 #   elsewhere      not run (it installs, builds or mounts); a `./command` in it must be there
 # A ```text block shows what the last ```sh block before it printed, on either stream: its lines must be
@@ -24,7 +25,7 @@ program=$(realpath "${SERVOID_PROGRAM:?path of the built program}")
 export SERVOID_DATA_DIR
 SERVOID_DATA_DIR=$(realpath -m "${SERVOID_DATA_DIR:-$source_dir/../shared/data}")
 kind=runnable
-[ "${1-}" != --measured ] || kind=measured
+case ${1-} in --measured) kind=measured ;; --live) kind=live ;; esac
 if [ $kind = measured ] && [ ! -d "$SERVOID_DATA_DIR/emps" ]; then
     echo "skipped: no data in $SERVOID_DATA_DIR"
     exit 0
@@ -72,7 +73,7 @@ compile_block() { # WHERE SCRIPT
 shown_block() { # WHERE TEXT
     case $last_sh in
     "sh $kind "*) ;;
-    "sh runnable "* | "sh measured "*) return ;; # the other run's
+    "sh runnable "* | "sh measured "* | "sh live "*) return ;; # the other run's
     *) fail "$1" "\`\`\`text: shows no block that is run (see tests/docs/test_docs.sh)"; return ;;
     esac
     local missing
@@ -95,6 +96,7 @@ block() { # WHERE INFO SCRIPT FOLDER
     "text "*) shown_block "$1" "$3" ;;
     "sh runnable "*) [ $kind != runnable ] || run_block "$@" ;;
     "sh measured "*) [ $kind != measured ] || run_block "$@" ;;
+    "sh live "*) [ $kind != live ] || run_block "$@" ;;
     "sh elsewhere "*) commands_exist "$1" "$3" ;;
     "c compiles "*) [ $kind != runnable ] || compile_block "$1" "$3" ;;
     "sh "* | "bash "* | "c ") fail "$1" "\`\`\`$2: not marked (see tests/docs/test_docs.sh)" ;;
