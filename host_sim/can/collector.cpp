@@ -14,19 +14,23 @@ std::variant<BusTable, TelemetryTable> table_for(const FrameMap& map) {
 
 } // namespace
 
-Collector::Collector(const FrameMap& map) : table_(table_for(map)) {}
+Collector::Collector(const FrameMap& map) : table_(table_for(map)) {
+    if (map.cia402_node) told_.emplace(*map.cia402_node);
+}
 
 void Collector::add(const Frame& frame) {
+    if (told_) told_->add(frame);
     std::visit([&](auto& table) { table.add(frame); }, table_);
 }
 
 BusCaptures Collector::captures(const std::string& path, const CaptureScales& scales) const {
     if (const auto* telemetry = std::get_if<TelemetryTable>(&table_))
         return telemetry->captures(path); // it brings its own scales
+    const CaptureScales complete = told_ ? told_->complete(scales) : scales;
     BusCaptures out;
     for (RawTable& rows : std::get<BusTable>(table_).tables(path, out.report)) {
         check_columns(rows);
-        out.captures.push_back(assemble(std::move(rows), scales));
+        out.captures.push_back(assemble(std::move(rows), complete));
     }
     return out;
 }

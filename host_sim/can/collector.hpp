@@ -2,6 +2,7 @@
 #pragma once
 
 #include "can/bus_table.hpp"
+#include "can/cia402_scales.hpp"
 #include "can/telemetry_table.hpp"
 
 #include <variant>
@@ -12,12 +13,13 @@ class Collector {
   public:
     explicit Collector(const FrameMap& map);
     void add(const Frame& frame);
-    // path: for messages. Throws FileError (a frame that is not there) and Refusal (nothing to
-    // build a row of).
+    // scales: where the frames bring none of their own. path: for messages. Throws FileError (a
+    // frame that is not there) and Refusal (nothing to build a row of).
     BusCaptures captures(const std::string& path, const CaptureScales& scales) const;
 
   private:
     std::variant<BusTable, TelemetryTable> table_;
+    std::optional<Cia402Scales> told_;
 };
 
 } // namespace servoid::can

@@ -226,6 +226,7 @@ FrameMap map_of_telemetry(int node) {
 
 FrameMap map_of_cia402(int node, int tpdo, const std::vector<std::string>& objects) {
     FrameMap map;
+    map.cia402_node = node;
     map.path = "cia402";
     map.sync = FrameId{0x80, false};
     const FrameId frame{std::uint32_t(0x80 + 0x100 * tpdo + node), false};

@@ -25,6 +25,7 @@ struct FrameMap {
     std::optional<Field> counter;      // sequence number of the cycle
     std::optional<Field> device_time;  // of the drive; its scale makes seconds of it
     std::optional<double> period_s;    // stated; else found
+    std::optional<int> cia402_node;    // whose answers to SDO reads tell its scales
     std::optional<int> telemetry_node; // servoid's own frames (telemetry.hpp) in place of fields
     std::string interface;             // "": that of the first frame that is mapped
     std::map<std::string, std::string> metadata;

@@ -148,3 +148,29 @@ TEST(Replay, WhatIsWrongIsSaidWithItsLine) {
     const std::string column = write(folder, "column.toml", "[signals.torque]\ncolumn = \"t\"\n");
     expect({"replay", log, "--map", column}, 3, "column.toml:2: ");
 }
+
+// No model: the drive was asked for its scales while the log was written.
+TEST(Replay, ScalesThatTheDriveWasAskedFor) {
+    const Folder folder;
+    const std::string log = simulated(folder, example("system1.toml"), sine, "a.log");
+    const std::string text = text_of(log);
+    const std::string start = "(0000000000.000000) can0 ";
+    const auto replayed = [&](const std::string& answers) {
+        return run({"replay", write(folder, "told.log", answers + text), "--profile", "cia402",
+                    "--objects", "6041", "6064", "6074", "--json"});
+    };
+    EXPECT_NE(replayed("").code, 0);
+    const std::string rated = start + "581#437660007D020000\n";    // 637 mN·m
+    const std::string encoder = start + "581#438F600100000200\n" + // 131072 increments
+                                start + "581#438F600201000000\n";  // a revolution
+    const double with_model =
+        inertia_of(run({"replay", log, "--profile", "cia402", "--objects", "6041", "6064", "6074",
+                        "--model", example("system1.toml"), "--json"}));
+    EXPECT_NEAR(inertia_of(replayed(rated + encoder)) / with_model, 1, 1e-6);
+    // Position units: 360 to a shaft revolution, two motor revolutions each, is twice the way of
+    // a degree.
+    const std::string feed = start + "581#4392600168010000\n" + start + "581#4392600201000000\n" +
+                             start + "581#4391600102000000\n" + start + "581#4391600201000000\n";
+    const double counts = 131072.0 / 360 * 2;
+    EXPECT_NEAR(inertia_of(replayed(rated + feed)) / with_model, 1 / counts, 1e-6 / counts);
+}
