@@ -34,6 +34,10 @@
 ///             locked. Where step and poll run on different cores, define SID_FENCE as a memory
 ///             barrier; where the background can preempt the interrupt, bracket the background
 ///             calls with sid_hal_enter_critical and sid_hal_exit_critical.
+/// 8. Bus      Only with sid_node.h: the interrupt calls sid_node_step in place of
+///             sid_identify_step, the main loop gives what sid_hal_can_receive brings to
+///             sid_node_receive, and what that and sid_node_poll fill to sid_hal_can_send. The
+///             reference is relative to node.run.start_raw (boards/blank_can).
 ///
 /// Units       As in sid_excite.h.
 /// Interrupt   sid_hal_read and sid_hal_write_reference: yes, and they should be short.
@@ -41,6 +45,7 @@
 #ifndef SERVOID_SID_HAL_H
 #define SERVOID_SID_HAL_H
 
+#include "servoid/sid_can.h"
 #include "servoid/sid_excite.h"
 
 #ifdef __cplusplus
@@ -53,6 +58,10 @@ void sid_hal_read(sid_sample_t* sample);
 void sid_hal_write_reference(int32_t reference_q8);
 /// Sample rate of the interrupt in microhertz; constant.
 uint64_t sid_hal_sample_rate_uHz(void);
+/// The next frame that has come; false if there is none. Must not wait.
+bool sid_hal_can_receive(sid_can_frame_t* frame);
+/// Gives a frame to the controller; false if it has no room. Must not wait.
+bool sid_hal_can_send(const sid_can_frame_t* frame);
 /// Keep the control interrupt out; never nested. Empty on most ports.
 void sid_hal_enter_critical(void);
 void sid_hal_exit_critical(void);

@@ -23,11 +23,21 @@ for file in "$source_dir"/src/*.c; do
     printf '%-16s %6d bytes\n' "$name" "$size"
     case $name in sid_bin | sid_inertia) pair=$((${pair:-0} + size)) ;; esac
 done
-# What a drive with a session links: the empty port, without the port itself, start-up and C library.
-"$cc" $flags -Os -ffunction-sections -fdata-sections -nostartfiles --specs=nosys.specs --specs=nano.specs \
-    -Wl,--gc-sections,-e,main,-Map="$work/image.map" "$source_dir"/boards/blank/*.c "$source_dir"/src/*.c -o "$work/image" 2>/dev/null
-image=$(arm-none-eabi-nm -S "$work/image" | awk '$3 ~ /^[tTrR]$/ && $4 !~ /^(main|begin|mem|sid_hal|blank|__|_)/ {print $2}' |
-    while read -r hex; do echo $((0x$hex)); done | awk '{n += $1} END {print n}')
+# What a drive links: an empty port, without the port itself, start-up and C library.
+flash_of() { # BOARD; its own code as it stands, or what its empty functions make needless would be left out
+    "$cc" $flags -O0 -c "$source_dir/boards/$1"/*.c -o "$work/board_$1.o"
+    "$cc" $flags -Os -ffunction-sections -fdata-sections -nostartfiles --specs=nosys.specs --specs=nano.specs \
+        -Wl,--gc-sections,-e,main "$work/board_$1.o" "$source_dir"/src/*.c -o "$work/image_$1" 2>"$work/link.log" ||
+        { cat "$work/link.log" >&2; exit 1; }
+    arm-none-eabi-nm -S "$work/image_$1" | awk '$3 ~ /^[tTrR]$/ && $4 !~ /^(main|begin|power_up|give|serve_bus|mem|sid_hal|blank|__|_)/ {print $2}' |
+        while read -r hex; do echo $((0x$hex)); done | awk '{n += $1} END {print n}'
+}
+"$cc" $flags -O2 -c "$source_dir/src/sid_node.c" -I"$source_dir/src" -o "$work/node.o"
+image=$(flash_of blank)
+node=$(flash_of blank_can)
+node_step=$(arm-none-eabi-objdump -d "$work/node.o" --disassemble=sid_node_step | grep -E '^ +[0-9a-f]+:' | grep -vc '\.word')
+divisions=$(arm-none-eabi-objdump -d "$work/node.o" --disassemble=sid_node_step | grep -cE 'div' || true)
+echo "node: flash $node bytes with its session; its interrupt $node_step instructions beside the session's, $divisions divisions"
 echo "flash: session $image bytes, sid_bin + sid_inertia $pair bytes, all modules $total bytes"
 echo "interrupt step: $steps instructions ($branches branches), stack $stack bytes"
 fail=0
@@ -36,5 +46,6 @@ over instructions "$steps" 150
 over branches "$branches" 0
 over stack "$stack" 128
 over "flash of a session" "$image" 8192
+over "divisions in the node's interrupt" "$divisions" 0
 over "sid_bin + sid_inertia" "$pair" 3072
 exit $fail
