@@ -195,9 +195,9 @@ class Parser {
 
     void add(DbcMessage&& message) {
         const std::string name = in_quotes(message.name);
-        if (message.bytes < 0 || message.bytes > longest_message)
+        if (message.bytes < 0)
             fail("message " + name + " has " + std::to_string(message.bytes) +
-                 " bytes; expected 0…" + std::to_string(longest_message));
+                 " bytes; expected 0 or more");
         const auto [same_id, new_id] = name_of_.emplace(message.frame, message.name);
         if (!new_id) {
             const DbcMessage& other = dbc_.messages.at(same_id->second);
@@ -268,9 +268,14 @@ class Parser {
         take_sign("]");
     }
 
-    void check_bits(const Field& field, int bytes) const {
-        const std::string fault = fault_of(field, bytes);
-        if (!fault.empty()) fail("signal " + in_quotes(field.name) + ": " + fault);
+    // Published files have signals that no frame can hold. They are refused where they are asked
+    // for.
+    static void check_bits(DbcSignal& signal, const DbcMessage& message, long line) {
+        signal.fault_line = line;
+        signal.fault = message.bytes > longest_message
+                           ? "its message of " + std::to_string(message.bytes) +
+                                 " bytes comes in several frames; that is not supported"
+                           : fault_of(signal.field, message.bytes);
     }
 
     DbcSignal* find(DbcMessage& message, const std::string& name) const {
@@ -281,7 +286,7 @@ class Parser {
     }
 
     void add(DbcSignal&& signal) {
-        check_bits(signal.field, message_->bytes);
+        check_bits(signal, *message_, line_);
         if (const DbcSignal* other = find(*message_, signal.field.name))
             fail("signal " + in_quotes(signal.field.name) + " is there already, in line " +
                  std::to_string(other->line) + "; expected another name");
@@ -312,7 +317,7 @@ class Parser {
             fail("type " + std::to_string(type) + "; expected 0 (integer), 1 (float), 2 (double)");
         if (type == 0) return;
         signal->field.kind = type == 1 ? FieldKind::float32 : FieldKind::float64;
-        check_bits(signal->field, message.bytes);
+        check_bits(*signal, message, line_);
     }
 
     std::vector<Token> tokens_;

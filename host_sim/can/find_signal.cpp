@@ -39,6 +39,9 @@ const DbcSignal& find_signal(const Dbc& dbc, const std::string& message_and_sign
             throw FileError(dbc.path, signal.line,
                             "signal " + in_quotes(message_and_signal) +
                                 " is multiplexed; multiplexed signals are not supported");
+        if (signal.field.name == name && !signal.fault.empty())
+            throw FileError(dbc.path, signal.fault_line,
+                            "signal " + in_quotes(name) + ": " + signal.fault);
         if (signal.field.name == name) return signal;
         names.push_back(signal.field.name);
     }

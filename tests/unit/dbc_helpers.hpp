@@ -103,9 +103,9 @@ inline std::string error_of(const std::string& text) {
     }
 }
 
-inline std::string search_error(const std::string& name) {
+inline std::string search_error(const std::string& name, const std::string& text = whole_file) {
     try {
-        find_signal(parse(whole_file), name);
+        find_signal(parse(text), name);
         return "no error";
     } catch (const FileError& error) {
         return error.what();
