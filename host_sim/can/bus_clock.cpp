@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace servoid::can {
 
@@ -106,6 +107,17 @@ FittedClock fit_clock(const std::vector<double>& arrivals, std::optional<double>
         number(arrivals, out);
         fit_line(arrivals, out, period_s.has_value());
     }
+    judge_arrivals(arrivals, out);
+    return out;
+}
+
+FittedClock counted_clock(const std::vector<double>& arrivals, std::optional<double> period_s) {
+    refuse_if_few(arrivals);
+    FittedClock out;
+    out.cycle.resize(arrivals.size());
+    std::iota(out.cycle.begin(), out.cycle.end(), 0L);
+    out.period_s = period_s.value_or(0);
+    fit_line(arrivals, out, period_s.has_value());
     judge_arrivals(arrivals, out);
     return out;
 }

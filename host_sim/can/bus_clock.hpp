@@ -22,7 +22,9 @@ struct FittedClock {
 // fewer than 8 arrivals.
 FittedClock fit_clock(const std::vector<double>& arrivals_s, std::optional<double> period_s);
 
-// The same where the cycles are known: the straight line of arrivals over them.
+// The same where every arrival is the next cycle, and where the cycles are known: the straight line
+// of arrivals over them.
+FittedClock counted_clock(const std::vector<double>& arrivals_s, std::optional<double> period_s);
 FittedClock line_through(const std::vector<double>& arrivals_s, const std::vector<long>& cycle);
 
 // A counter of `bits` bits that rolls over, as numbers that do not. A step of less than half its

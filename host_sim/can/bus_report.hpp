@@ -24,7 +24,8 @@ struct BusReport {
     long interface_down = 0; // how often, while a live bus was heard
     double period_s = 0;
     double jitter_s = 0; // rms of the arrivals about the fitted clock
-    std::string clock;   // what gave the instants: "SYNC", "counter", "device time", "arrival"
+    std::string clock; // what gave the instants: "SYNC", "SYNC, counted", "counter", "device time",
+                       // "arrival"
 };
 
 // An error frame and what it says.

@@ -80,15 +80,29 @@ void BusTable::add(const Frame& frame) {
 }
 
 // Data follow the SYNC of their cycle.
-BusTable::Cycles BusTable::cycles_by_sync(BusReport& report) const {
-    const FittedClock clock = fit_clock(sync_s_, map_.period_s);
+// Whether arrivals tell nothing of the instants: who plays a log, or an adapter, pauses and then
+// sends all that waited. Two SYNCs then seem to be one, though each has data of its own.
+bool BusTable::comes_in_bursts(const FittedClock& clock) const {
+    std::vector<bool> has_data(sync_s_.size() + 1, false); // after so many SYNCs
+    for (long n : arrivals_.front().before)
+        has_data[std::size_t(n)] = true;
+    for (std::size_t i = 1; i < clock.cycle.size(); ++i)
+        if (clock.cycle[i] <= clock.cycle[i - 1] && has_data[i] && has_data[i + 1]) return true;
+    return false;
+}
+
+BusTable::Cycles BusTable::cycles_by_sync(BusReport& report, bool complete) const {
+    FittedClock clock = fit_clock(sync_s_, map_.period_s);
+    const bool counted = complete || comes_in_bursts(clock);
+    if (counted) clock = counted_clock(sync_s_, map_.period_s);
     Cycles out(arrivals_.size());
     for (std::size_t a = 0; a < arrivals_.size(); ++a) {
         for (long n : arrivals_[a].before)
             out[a].push_back(n > 0 ? clock.cycle[std::size_t(n - 1)] : -1);
         report.late += pull_back_late(out[a]);
     }
-    report.clock = "SYNC", report.period_s = clock.period_s, report.jitter_s = clock.jitter_s;
+    report.clock = counted ? "SYNC, counted" : "SYNC", report.period_s = clock.period_s,
+    report.jitter_s = clock.jitter_s;
     return out;
 }
 
@@ -109,8 +123,8 @@ FittedClock BusTable::clock_of(const Arrivals& a, BusReport& report) const {
 }
 
 // The number of the cycle of each arrival, for each identifier.
-BusTable::Cycles BusTable::cycles(BusReport& report) const {
-    if (map_.sync) return cycles_by_sync(report);
+BusTable::Cycles BusTable::cycles(BusReport& report, bool complete) const {
+    if (map_.sync) return cycles_by_sync(report, complete);
     std::size_t leader = 0; // by whose cycles the others are counted
     for (std::size_t a = 0; a < arrivals_.size(); ++a)
         if (!arrivals_[a].counts.empty() || !arrivals_[a].ticks.empty()) leader = a;
@@ -132,8 +146,8 @@ BusTable::Cycles BusTable::cycles(BusReport& report) const {
 }
 
 // Which arrival of each identifier stands in which cycle.
-BusTable::Placed BusTable::place(BusReport& report) const {
-    const auto cycle = cycles(report);
+BusTable::Placed BusTable::place(BusReport& report, bool complete) const {
+    const auto cycle = cycles(report, complete);
     Placed out;
     out.at.resize(arrivals_.size());
     for (std::size_t a = 0; a < arrivals_.size(); ++a) {
@@ -199,10 +213,11 @@ void BusTable::refuse_if_missing(const std::string& path) const {
         throw FileError(path, 0, "no SYNC frame " + to_text(*map_.sync) + " is in the log");
 }
 
-std::vector<RawTable> BusTable::tables(const std::string& path, BusReport& report) const {
+std::vector<RawTable> BusTable::tables(const std::string& path, BusReport& report,
+                                       bool complete) const {
     report = seen_;
     refuse_if_missing(path);
-    const Placed placed = place(report);
+    const Placed placed = place(report, complete);
     const std::vector<long> whole = whole_cycles(placed);
     std::vector<RawTable> out;
     for (std::size_t from = 0, to = 0; from < whole.size(); from = to) {

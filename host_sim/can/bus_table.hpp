@@ -20,7 +20,9 @@ class BusTable {
     explicit BusTable(FrameMap map);
     void add(const Frame& frame);
     // Throws FileError (a mapped identifier was never seen) and Refusal (too few cycles).
-    std::vector<RawTable> tables(const std::string& path, BusReport& report) const;
+    // complete: nothing was lost on the way here, so that each SYNC is the next cycle.
+    std::vector<RawTable> tables(const std::string& path, BusReport& report,
+                                 bool complete = false) const;
 
   private:
     struct Arrivals {
@@ -40,9 +42,10 @@ class BusTable {
     Arrivals* find(FrameId id);
     void refuse_if_missing(const std::string& path) const;
     FittedClock clock_of(const Arrivals& arrivals, BusReport& report) const;
-    Cycles cycles_by_sync(BusReport& report) const;
-    Cycles cycles(BusReport& report) const;
-    Placed place(BusReport& report) const;
+    bool comes_in_bursts(const FittedClock& clock) const;
+    Cycles cycles_by_sync(BusReport& report, bool complete) const;
+    Cycles cycles(BusReport& report, bool complete) const;
+    Placed place(BusReport& report, bool complete) const;
     std::vector<long> whole_cycles(const Placed& placed) const;
     RawTable table_of(const Placed& placed, long first, long end, double period_s) const;
 

@@ -23,14 +23,15 @@ void Collector::add(const Frame& frame) {
     std::visit([&](auto& table) { table.add(frame); }, table_);
 }
 
-BusCaptures Collector::captures(const std::string& path, const CaptureScales& scales) const {
+BusCaptures Collector::captures(const std::string& path, const CaptureScales& scales,
+                                bool complete) const {
     if (const auto* telemetry = std::get_if<TelemetryTable>(&table_))
         return telemetry->captures(path); // it brings its own scales
-    const CaptureScales complete = told_ ? told_->complete(scales) : scales;
+    const CaptureScales all = told_ ? told_->complete(scales) : scales;
     BusCaptures out;
-    for (RawTable& rows : std::get<BusTable>(table_).tables(path, out.report)) {
+    for (RawTable& rows : std::get<BusTable>(table_).tables(path, out.report, complete)) {
         check_columns(rows);
-        out.captures.push_back(assemble(std::move(rows), complete));
+        out.captures.push_back(assemble(std::move(rows), all));
     }
     return out;
 }

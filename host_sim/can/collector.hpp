@@ -15,7 +15,9 @@ class Collector {
     void add(const Frame& frame);
     // scales: where the frames bring none of their own. path: for messages. Throws FileError (a
     // frame that is not there) and Refusal (nothing to build a row of).
-    BusCaptures captures(const std::string& path, const CaptureScales& scales) const;
+    // complete: of a live bus, that had room for everything.
+    BusCaptures captures(const std::string& path, const CaptureScales& scales,
+                         bool complete = false) const;
 
   private:
     std::variant<BusTable, TelemetryTable> table_;

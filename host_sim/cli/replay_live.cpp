@@ -14,9 +14,11 @@ namespace {
 
 can::BusCaptures captures_of(const can::Recorder& recorder, const can::Bus& bus,
                              const std::string& interface, const CaptureScales& scales) {
-    can::BusCaptures out = recorder.table().captures(interface, scales);
-    out.report.dropped = bus.health().dropped;
-    out.report.interface_down = bus.health().interface_down;
+    const can::BusHealth& health = bus.health();
+    const bool complete = health.dropped + health.interface_down + health.bus_off == 0;
+    can::BusCaptures out = recorder.table().captures(interface, scales, complete);
+    out.report.dropped = health.dropped;
+    out.report.interface_down = health.interface_down;
     return out;
 }
 

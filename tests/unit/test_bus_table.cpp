@@ -99,6 +99,34 @@ TEST(BusTable, ALostFrameSplitsTheCapture) {
         }
 }
 
+// A PC that plays a log: pauses of up to 20 cycles, then all that waited at once. Each SYNC is the
+// next cycle, and nothing is lost.
+TEST(BusTable, BurstsAreNoLoss) {
+    FrameMap map = two_frames();
+    map.sync = FrameId{0x80, false};
+    map.period_s = 1e-3;
+    BusTable bursts(map);
+    std::int64_t now = 0;
+    play(bursts, 2000, [&](Frame f, long k) {
+        const long due = k / 20 * 20 + (k / 200 % 2 == 0 ? 19 : 0); // every other 0.2 s in bursts
+        now = std::max({now + 2000, due * kPeriod_ns, k / 200 % 2 ? f.time_ns : 0});
+        f.time_ns = now;
+        bursts.add(f);
+        return false;
+    });
+    BusReport report;
+    const auto tables = bursts.tables("log", report);
+    EXPECT_EQ(report.clock, "SYNC, counted");
+    EXPECT_EQ(report.lost, 0);
+    EXPECT_EQ(report.repeated, 0);
+    ASSERT_EQ(tables.size(), 1u);
+    ASSERT_EQ(tables[0].rows(), 2000u);
+    for (std::size_t k = 0; k < 2000; k += 37) {
+        EXPECT_EQ(value(tables[0], Signal::position, k), 10.0 * double(k));
+        EXPECT_DOUBLE_EQ(value(tables[0], Signal::time, k), 1e-3 * double(k));
+    }
+}
+
 TEST(BusTable, ARepeatedFrameIsCountedAndDropped) {
     FrameMap map = two_frames();
     map.sync = FrameId{0x80, false};

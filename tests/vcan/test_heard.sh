@@ -30,6 +30,15 @@ expect "saved.log is not what candump wrote" cmp \
 [ "$(grep -c '^[0-9]' saved.csv)" -eq "$frames" ] || fail "saved.csv has not one row a frame"
 echo "figure: $frames frames at 8 kHz over a virtual bus, 0 lost: every number as of the log"
 
+# So does a drive that answers SYNC, though its frames come in bursts from a player: with the cycle
+# stated, each SYNC is the next one.
+listen synced --profile cia402 --objects 6041 6064 6074 --idle 1.5
+canplayer -I x.log vcan0=can0
+ended synced 0
+bus_is synced.json lost 0
+bus_is synced.json repeated 0
+expect "SYNC by SYNC other numbers than the log" same_numbers log.json synced.json
+
 # The user ends it, and what came until then is evaluated.
 listen ended --map counter.toml --idle 60
 canplayer -I counter.log vcan0=can0
