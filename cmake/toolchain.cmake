@@ -18,12 +18,3 @@ if(SERVOID_CCACHE)
     endforeach()
   endif()
 endif()
-
-# What nearly every file of a target includes, parsed once. Only under the sanitizers, which are
-# built beside everything else: gcc 12 forgets with a precompiled header which warnings its own
-# string functions have switched off.
-function(servoid_precompile target)
-  if(SERVOID_SANITIZE)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
-endfunction()

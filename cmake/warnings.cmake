@@ -7,6 +7,11 @@ function(servoid_warnings target)
   set(cxx ${common} -Wno-sign-conversion)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     list(APPEND cxx -Wno-restrict) # gcc 12 sees overlap in `"text" + std::string` (GCC bug 105651)
+    if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+      # and with a precompiled header forgets where its strings have switched these off; the preset
+      # `plain` does without such headers
+      list(APPEND cxx -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+    endif()
   endif()
   if(SERVOID_WERROR)
     list(APPEND c -Werror)

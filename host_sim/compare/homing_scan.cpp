@@ -1,10 +1,11 @@
 #include "compare/homing_scan.hpp"
 
 #include "compare/linear_fit.hpp"
+#include "compare/solve.hpp"
 #include "compare/spectrum.hpp"
 #include "effects/wave.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -166,7 +167,7 @@ Vector HomingScan::solved(const Matrix& all) const {
             gram(i, j) = scale[i] * scale[j] * all(free_[size_t(i)], free_[size_t(j)]);
     }
     gram.diagonal().array() += kRidge; // a column that nothing shows
-    const Vector found = scale.cwiseProduct(gram.ldlt().solve(right));
+    const Vector found = scale.cwiseProduct(solve_symmetric(gram, right));
     for (Eigen::Index i = 0; i < k; ++i)
         out[free_[size_t(i)]] = found[i];
     return out;

@@ -1,6 +1,8 @@
 #include "compare/linear_fit.hpp"
 
-#include <Eigen/Dense>
+#include "compare/solve.hpp"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +72,7 @@ LinearFit solve(const LinearProblem& p) {
         const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
         const double least = eigen.eigenvalues()[0], most = eigen.eigenvalues()[k - 1];
         if (!(least * kWorstCondition * kWorstCondition > most)) return out;
-        const Vector solved = gram.ldlt().solve(moment);
+        const Vector solved = solve_symmetric(gram, moment);
         Eigen::Index worst = -1;
         double worst_by = 0;
         for (Eigen::Index i = 0; i < k; ++i) {
@@ -97,8 +99,7 @@ Matrix block_covariance(const Matrix& x, const Vector& residual, const std::vect
     Matrix scores = Matrix::Zero(blocks, x.cols());
     for (Eigen::Index i = 0; i < x.rows(); ++i)
         scores.row(block[size_t(i)]) += residual[i] * scaled.row(i);
-    const Matrix inverse =
-        (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
+    const Matrix inverse = pseudo_inverse(scaled.transpose() * scaled);
     const double spread = double(blocks) / std::max(1.0, double(blocks) - double(x.cols()));
     const Matrix cov = inverse * (scores.transpose() * scores) * inverse * spread;
     return scale.asDiagonal() * cov * scale.asDiagonal();

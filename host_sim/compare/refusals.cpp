@@ -4,9 +4,10 @@
 #include "common/text.hpp"
 #include "compare/one_way.hpp"
 #include "compare/regression.hpp"
+#include "compare/solve.hpp"
 #include "effects/catalogue.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ constexpr double kSeparate = 1e-6; // of a slope: what no other parameter can ta
 
 // Of a vector from the plane that columns span.
 double distance(const Vector& vector, const Matrix& columns) {
-    return (vector - columns * columns.completeOrthogonalDecomposition().solve(vector)).norm();
+    return (vector - columns * shortest_least_squares(columns, vector)).norm();
 }
 
 bool is_free(const Model& model, const std::string& prefix) {

@@ -4,11 +4,12 @@
 #include "compare/linear_fit.hpp"
 #include "compare/one_way.hpp"
 #include "compare/refusals.hpp"
+#include "compare/solve.hpp"
 #include "compare/start_search.hpp"
 #include "compare/uncertainty.hpp"
 #include "effects/catalogue.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -168,7 +169,8 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
         slopes << shape_slopes(s, shapes, assembler), homing_slopes(s, assembler);
         for (Eigen::Index i = 0; i < slopes.cols(); ++i) // a law without a value beside this one
             if (!slopes.col(i).allFinite()) slopes.col(i).setZero();
-        if (x.cols() > 0) slopes -= x * (x.transpose() * x).ldlt().solve(x.transpose() * slopes);
+        if (x.cols() > 0)
+            slopes -= x * solve_symmetric(x.transpose() * x, Matrix(x.transpose() * slopes));
         const Vector scale = slopes.colwise().norm().cwiseMax(1e-300).cwiseInverse();
         slopes = slopes * scale.asDiagonal();
         Matrix normal = slopes.transpose() * slopes;
@@ -184,7 +186,7 @@ bool descend(State& s, Assembler& assembler, const FitOptions& options) {
         for (int attempt = 0; attempt < 5 && !better; ++attempt) {
             Matrix damped = normal;
             damped.diagonal().array() += damping;
-            const Vector by = -(scale.asDiagonal() * damped.ldlt().solve(gradient));
+            const Vector by = -(scale.asDiagonal() * solve_symmetric(damped, gradient));
             assembler.set_homing(moved_by(s, by.tail(offsets)));
             State next = evaluate(moved_by(s, shapes, by), assembler);
             better = objective(next, shapes, asked) < before;

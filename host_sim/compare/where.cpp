@@ -2,7 +2,7 @@
 
 #include "compare/spectrum.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 #include "diagnose/evidence.hpp"
 
+#include "compare/solve.hpp"
 #include "compare/spectrum.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ std::vector<double> held_out_power(const Matrix& slopes, const Vector& residual,
     for (const Part& part : parts) {
         Matrix rest = gram - part.gram;
         rest.diagonal().array() += ridge;
-        const Vector c = rest.ldlt().solve(moment - part.moment);
+        const Vector c = solve_symmetric(rest, Vector(moment - part.moment));
         out.push_back(std::max(0.0, part.power - 2 * c.dot(part.moment) + c.dot(part.gram * c)));
     }
     return out;

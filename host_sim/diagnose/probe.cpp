@@ -2,7 +2,7 @@
 
 #include "diagnose/evidence.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

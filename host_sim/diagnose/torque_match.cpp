@@ -2,9 +2,10 @@
 
 #include "compare/linear_fit.hpp"
 #include "compare/one_way.hpp"
+#include "compare/solve.hpp"
 #include "effects/catalogue.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ void TorqueMatch::keep_columns(const Assembly& a, bool one_way) {
         Vector left = column;
         if (!kept.empty()) {
             const Matrix x = pick(rows, kept);
-            left -= x * x.colPivHouseholderQr().solve(column);
+            left -= x * least_squares(x, column);
         }
         if (!(left.norm() > kOwnShare * column.norm())) continue;
         kept.push_back(i);
@@ -184,7 +185,7 @@ std::optional<Estimate> TorqueMatch::delay_of_inertia() const {
     Matrix x(columns_.rows(), columns_.cols() + 1);
     x << columns_, jerk_;
     if (condition_of(x) > 1e3) return std::nullopt;
-    const Vector values = x.colPivHouseholderQr().solve(torque_);
+    const Vector values = least_squares(x, torque_);
     const Matrix cov = block_covariance(x, torque_ - x * values, block_);
     const Eigen::Index last = x.cols() - 1;
     if (!(values[0] > 0)) return std::nullopt;

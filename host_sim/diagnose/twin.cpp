@@ -9,7 +9,7 @@
 #include "diagnose/add_effect.hpp"
 #include "diagnose/evidence.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // Fitted values against believed ones: a unit that explains all of them, or one common factor.
+#include "compare/solve.hpp"
 #include "diagnose/sanity.hpp"
 #include "effects/catalogue.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,8 +61,7 @@ std::map<std::string, double> shares_of(const FitResult& fitted, Assembler& asse
     const Eigen::MatrixXd unit =
         x * x.colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
     // The part of a column that is its own: one over the diagonal of the inverse of the products.
-    const Eigen::VectorXd inflation =
-        (unit.transpose() * unit).completeOrthogonalDecomposition().pseudoInverse().diagonal();
+    const Eigen::VectorXd inflation = pseudo_inverse(unit.transpose() * unit).diagonal();
     std::map<std::string, double> out;
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         out[coefficient_name(fitted.model, fitted.coefficients[size_t(i)])] =

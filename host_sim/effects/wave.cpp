@@ -1,6 +1,6 @@
 #include "effects/wave.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 

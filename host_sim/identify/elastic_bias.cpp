@@ -1,6 +1,8 @@
 #include "identify/sweep.hpp"
 
-#include <Eigen/Dense>
+#include "compare/solve.hpp"
+
+#include <Eigen/Core>
 
 #include <cmath>
 #include <numbers>
@@ -42,7 +44,7 @@ Vector start(const Vector& x, const Vector& j, const Vector& weight, Eigen::Inde
     Matrix columns(x.size(), 3);
     columns << Vector::Ones(x.size()), j.cwiseProduct(x), -x;
     const Matrix used = weight.asDiagonal() * columns.leftCols(unknowns);
-    Vector p = used.colPivHouseholderQr().solve(j.cwiseProduct(weight));
+    Vector p = least_squares(used, j.cwiseProduct(weight));
     if (unknowns > 1) p[1] = std::clamp(p[1], 0.0, 0.9);
     if (unknowns > 2) p[2] = std::clamp(p[2] / p[0], 0.0, p[1]);
     return p;
@@ -59,7 +61,7 @@ Fit descend(const Vector& x, const Vector& j, const Vector& weight, const Vector
     for (int iteration = 0; iteration < 60; ++iteration) {
         const Matrix s = weight.asDiagonal() * slopes(x, fit.p);
         const Vector r = (j - law(x, fit.p)).cwiseProduct(weight);
-        const Vector full = s.colPivHouseholderQr().solve(r);
+        const Vector full = least_squares(s, r);
         double step = 1;
         Vector next = fit.p;
         for (; step > 1e-6; step /= 2) {
@@ -73,7 +75,7 @@ Fit descend(const Vector& x, const Vector& j, const Vector& weight, const Vector
     }
     fit.chi2 = miss(fit.p);
     const Matrix s = weight.asDiagonal() * slopes(x, fit.p);
-    fit.covariance = (s.transpose() * s).completeOrthogonalDecomposition().pseudoInverse();
+    fit.covariance = pseudo_inverse(s.transpose() * s);
     return fit;
 }
 

@@ -4,7 +4,7 @@
 #include "identify/core_window.hpp"
 #include "servoid/sid_friction.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

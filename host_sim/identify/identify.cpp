@@ -4,11 +4,12 @@
 #include "compare/low_pass.hpp"
 #include "compare/noise.hpp"
 #include "compare/period.hpp"
+#include "compare/solve.hpp"
 #include "compare/spectrum.hpp"
 #include "effects/catalogue.hpp"
 #include "identify/noise_beside.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -109,8 +110,8 @@ double inflation(const WindowTask& task) {
         for (int k = 0; k < trend; ++k)
             x(i, 2 + k) = std::pow(t, k);
     }
-    const Eigen::MatrixXd inverse =
-        (x.transpose() * x).ldlt().solve(Eigen::MatrixXd::Identity(x.cols(), x.cols()));
+    const Eigen::MatrixXd inverse = solve_symmetric(
+        x.transpose() * x, Eigen::MatrixXd(Eigen::MatrixXd::Identity(x.cols(), x.cols())));
     return std::max(inverse(0, 0), inverse(1, 1)) * double(n) / 2;
 }
 

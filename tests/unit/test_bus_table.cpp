@@ -22,11 +22,19 @@ MappedSignal signal(const char* name, std::uint32_t id, int start, int length) {
     return {name, *find_column(name), field(name, id, start, length)};
 }
 
-// Torque and position of one cycle in two frames.
-FrameMap two_frames() {
+// Torque alone, at the start of its frame.
+FrameMap one_frame() {
     FrameMap map;
     map.path = "map";
-    map.signals = {signal("torque_permille", 0x181, 0, 16), signal("position_count", 0x281, 0, 32)};
+    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    return map;
+}
+
+// Torque and position of one cycle in two frames, with or without a SYNC.
+FrameMap two_frames(bool sync) {
+    FrameMap map = one_frame();
+    map.signals.push_back(signal("position_count", 0x281, 0, 32));
+    if (sync) map.sync = FrameId{0x80, false};
     return map;
 }
 
@@ -59,8 +67,7 @@ double value(const RawTable& table, Signal wanted, std::size_t row) {
 
 TEST(BusTable, RowsAreCyclesOfEveryClock) {
     for (const bool sync : {true, false}) {
-        FrameMap map = two_frames();
-        if (sync) map.sync = FrameId{0x80, false};
+        const FrameMap map = two_frames(sync);
         BusTable table(map);
         play(table, 100, all);
         BusReport report;
@@ -83,8 +90,7 @@ TEST(BusTable, RowsAreCyclesOfEveryClock) {
 TEST(BusTable, ALostFrameSplitsTheCapture) {
     for (const bool sync : {true, false})
         for (const std::uint32_t id : {0x181u, 0x281u}) {
-            FrameMap map = two_frames();
-            if (sync) map.sync = FrameId{0x80, false};
+            const FrameMap map = two_frames(sync);
             BusTable table(map);
             play(table, 100, [&](const Frame& f, long k) { return f.id != id || k != 40; });
             BusReport report;
@@ -102,8 +108,7 @@ TEST(BusTable, ALostFrameSplitsTheCapture) {
 // A PC that plays a log: pauses of up to 20 cycles, then all that waited at once. Each SYNC is the
 // next cycle, and nothing is lost.
 TEST(BusTable, BurstsAreNoLoss) {
-    FrameMap map = two_frames();
-    map.sync = FrameId{0x80, false};
+    FrameMap map = two_frames(true);
     map.period_s = 1e-3;
     BusTable bursts(map);
     std::int64_t now = 0;
@@ -128,8 +133,7 @@ TEST(BusTable, BurstsAreNoLoss) {
 }
 
 TEST(BusTable, ARepeatedFrameIsCountedAndDropped) {
-    FrameMap map = two_frames();
-    map.sync = FrameId{0x80, false};
+    const FrameMap map = two_frames(true);
     BusTable table(map);
     play(table, 100, [&](const Frame& f, long k) {
         if (f.id == 0x181 && k == 30) table.add(f);
@@ -145,8 +149,7 @@ TEST(BusTable, ARepeatedFrameIsCountedAndDropped) {
 
 // It arrives after the next SYNC, before the next one of its own.
 TEST(BusTable, ALateFrameStandsInItsOwnCycle) {
-    FrameMap map = two_frames();
-    map.sync = FrameId{0x80, false};
+    const FrameMap map = two_frames(true);
     BusTable table(map);
     Frame late;
     play(table, 100, [&](const Frame& f, long k) {
@@ -167,9 +170,7 @@ TEST(BusTable, ALateFrameStandsInItsOwnCycle) {
 }
 
 TEST(BusTable, ACounterPutsReorderedFramesBack) {
-    FrameMap map;
-    map.path = "map";
-    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    FrameMap map = one_frame();
     map.counter = field("counter", 0x181, 16, 8, FieldKind::unsigned_integer);
     BusTable table(map);
     std::vector<Frame> frames;
@@ -191,9 +192,7 @@ TEST(BusTable, ACounterPutsReorderedFramesBack) {
 
 // The log's times are rough, the drive's are not.
 TEST(BusTable, TheDrivesOwnTimeIsTheTime) {
-    FrameMap map;
-    map.path = "map";
-    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    FrameMap map = one_frame();
     map.device_time = field("time", 0x181, 16, 16, FieldKind::unsigned_integer);
     map.device_time->scale = 1e-6;
     BusTable table(map);
@@ -208,7 +207,7 @@ TEST(BusTable, TheDrivesOwnTimeIsTheTime) {
 }
 
 TEST(BusTable, WhatIsNotThereIsSaid) {
-    FrameMap map = two_frames();
+    const FrameMap map = two_frames(false);
     BusReport report;
     BusTable empty(map);
     EXPECT_THROW(empty.tables("log", report), FileError);
@@ -226,9 +225,7 @@ TEST(BusTable, WhatIsNotThereIsSaid) {
 
 // A period that is no whole number of ticks must not drift into another cycle.
 TEST(BusTable, ADeviceTimeMayBeCoarse) {
-    FrameMap map;
-    map.path = "map";
-    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    FrameMap map = one_frame();
     map.device_time = field("time", 0x181, 16, 32, FieldKind::unsigned_integer);
     map.device_time->scale = 1e-6;
     BusTable table(map);
@@ -243,9 +240,7 @@ TEST(BusTable, ADeviceTimeMayBeCoarse) {
 }
 
 TEST(BusTable, OneFrameIsRefused) {
-    FrameMap map;
-    map.path = "map";
-    map.signals = {signal("torque_permille", 0x181, 0, 16)};
+    FrameMap map = one_frame();
     map.device_time = field("time", 0x181, 16, 16, FieldKind::unsigned_integer);
     BusTable table(map);
     table.add(frame(0x181, 0, 1, 4));
@@ -256,8 +251,7 @@ TEST(BusTable, OneFrameIsRefused) {
 // The clock of a logger that finds its date jumps by fifty years: a trillion cycles.
 TEST(BusTable, AJumpOfTheClockIsAGapAndNoLoop) {
     for (const bool sync : {true, false}) {
-        FrameMap map = two_frames();
-        if (sync) map.sync = FrameId{0x80, false};
+        const FrameMap map = two_frames(sync);
         BusTable table(map);
         play(table, 100, [&](const Frame& f, long k) {
             Frame later = f;
