@@ -121,7 +121,7 @@ void SocketCan::send(const Frame& frame) {
         if (!is_no_room(error)) refuse_sending(interface_, frame, error);
         if (error == ENETDOWN) note_down();
         refuse_lasting_trouble();
-        if (Clock::now() >= until) {
+        if (error == ENETDOWN || Clock::now() >= until) {
             ++health_.not_sent;
             return;
         }
