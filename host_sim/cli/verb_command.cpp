@@ -1,5 +1,6 @@
 // servoid command: the other end of a drive on the bus. Runs sessions and moves on it, and keeps
 // what it tells.
+#include "can/candump.hpp"
 #include "can/socketcan.hpp"
 #include "cli/app.hpp"
 #include "cli/bus_output.hpp"
@@ -27,7 +28,8 @@ namespace {
 struct Options {
     Output output;
     LinkOptions link;
-    std::string interface, out;
+    Limits limits;
+    std::string interface, out, log;
     // identify
     std::vector<double> frequencies{50};
     double amplitude = 0;
@@ -56,11 +58,17 @@ OnProgress on_terminal(const Output& output) {
 // The bus, the link and what they went through, told in the same words by every run.
 struct Session {
     explicit Session(const Options& o)
-        : bus(o.interface, what_it_hears(o.link)), link(bus, with_signals(o.link)) {}
-    static LinkOptions with_signals(LinkOptions link) {
-        link.cancelled = [] { return EndOnSignal::wanted().load(); };
-        return link;
+        : bus(o.interface, what_it_hears(o.link)), link(bus, wired(o)) {}
+    LinkOptions wired(const Options& o) {
+        LinkOptions out = o.link;
+        out.cancelled = [] { return EndOnSignal::wanted().load(); };
+        if (!o.log.empty())
+            out.heard = [this, name = o.interface](const can::Frame& frame) {
+                log += can::format_candump(frame, name) + "\n";
+            };
+        return out;
     }
+    std::string log;
     EndOnSignal signals;
     can::SocketCan bus;
     Link link;
@@ -102,7 +110,7 @@ std::vector<std::string> troubles(const Session& s) {
          fmt::format("{} of {} requests and {} SYNC were sent again", r.repeated_requests,
                      r.requests, r.repeated_syncs));
     tell(r.foreign_requests,
-         fmt::format("another master talks to this node: {} frames, of which it took {}",
+         fmt::format("another master talks to this node: {} frames, {} of them with effect",
                      r.foreign_requests, r.foreign_changes));
     tell(s.drive.references_refused,
          fmt::format("{} frames of references came after a lost one, and were sent again",
@@ -136,8 +144,9 @@ std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
     }
 }
 
-// The longest stretch goes into the file.
-void keep(const std::optional<can::BusCaptures>& all, const Options& o) {
+// The longest stretch goes into the file, everything into the log.
+void keep(const std::optional<can::BusCaptures>& all, const Session& s, const Options& o) {
+    if (!o.log.empty()) write_file(o.log, s.log);
     if (!all) return;
     print_bus(o.output, *all, true);
     if (o.out.empty()) return;
@@ -156,7 +165,7 @@ template <class Work> auto run_on(Session& s, const Options& o, const Work& work
     try {
         return work();
     } catch (const can::BusError& e) {
-        keep(heard(s, o), o);
+        keep(heard(s, o), s, o);
         throw can::BusError(fmt::format("{}", fmt::join(with(e.what(), troubles(s)), "; ")));
     }
 }
@@ -176,7 +185,8 @@ void refuse_if_no_answer(const std::vector<SessionResult>& results) {
         if (r.reason != SID_OK)
             throw Refusal(
                 fmt::format("at {:.4g} Hz: {}", r.frequency_Hz, sid_reason_text(r.reason)),
-                "another frequency or a larger amplitude");
+                r.reason == SID_SATURATED ? "a smaller amplitude or a lower frequency"
+                                          : "another frequency or a larger amplitude");
 }
 
 // The drive's own answer, with the deviation that the capture of the same move gives where the
@@ -232,6 +242,7 @@ Answer measured(Session& s, const Options& o) {
         plan.push_back({f, o.amplitude});
     Answer out;
     out.linear = master.scales().linear;
+    master.set_limits(o.limits);
     out.end = master.identify(plan, o.session, on_terminal(o.output));
     if (out.end.fault.empty() || is_refusal(out.end.status.reason))
         out.results = master.results(plan);
@@ -244,7 +255,7 @@ void run_identify(const Options& o) {
     Session s(o);
     const Answer answer = run_on(s, o, [&] { return measured(s, o); });
     const auto all = heard(s, o);
-    keep(all, o);
+    keep(all, s, o);
     if (is_refusal(answer.end.status.reason)) refuse_if_no_answer(answer.results);
     refuse_if_not_whole(answer.end, s);
     refuse_if_no_answer(answer.results);
@@ -266,7 +277,8 @@ Json move_json(const Options& o, const RunEnd& end, const std::optional<can::Bus
                  {"experiment", o.experiment},
                  {"status", end.fault.empty() ? "ok" : end.fault},
                  {"out", o.out.empty() ? Json(nullptr) : Json(o.out)},
-                 {"samples", all ? longest(all->captures).rows() : 0}};
+                 {"samples", all ? longest(all->captures).rows() : 0},
+                 {"stretches", all ? all->captures.size() : 0}};
     if (all) json["bus"] = bus_json(all->report);
     json["link"] = link_json(s);
     return json;
@@ -293,6 +305,7 @@ Experiment approach(const Experiment& experiment, double from, double to) {
 
 RunEnd moved(Session& s, const Options& o, const Experiment& experiment) {
     Master master(s.link);
+    master.set_limits(o.limits);
     const double stands = master.position();
     RunEnd end;
     if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
@@ -311,7 +324,7 @@ void run_move(const Options& o) {
     Session s(o);
     const RunEnd end = run_on(s, o, [&] { return moved(s, o, experiment); });
     const auto all = heard(s, o);
-    keep(all, o);
+    keep(all, s, o);
     o.output.print_json(move_json(o, end, all, s));
     print_link(o.output, s);
     refuse_if_not_whole(end, s);
@@ -365,12 +378,19 @@ void add_link_options(const Verb& verb, Options& o) {
     verb.add_option("--timeout", o.link.timeout_ms,
                     "ms without our heartbeat after which the drive holds its axis (default 500)")
         .between(20, 60000);
+    verb.add_option("--torque-limit", o.limits.torque,
+                    "N·m or N at which the drive holds its axis (default: its own)")
+        .positive();
+    verb.add_option("--stroke", o.limits.stroke,
+                    "rad or m from the start of a run at which the drive holds its axis")
+        .positive();
     verb.add_flag("--free", o.link.free_running, "the drive is free-running: give it SYNC");
     add_output_options(verb, o.output);
 }
 
 void add_out(const Verb& run, Options& o) {
-    run.add_option("--out", o.out, "write what was recorded as .csv");
+    run.add_option("--out", o.out, "write what was recorded as .csv: the longest stretch");
+    run.add_option("--log", o.log, "write all that was heard as a candump log");
 }
 
 void add_identify_run(const Verb& verb, const std::shared_ptr<Options>& o) {

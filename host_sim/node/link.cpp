@@ -73,8 +73,7 @@ SdoAbort::SdoAbort(std::uint32_t code, const std::string& what)
 Link::Link(can::Bus& bus, const LinkOptions& options)
     : bus_(bus), options_(options), table_(options.node) {}
 
-void Link::heartbeat() {
-    const auto now = Clock::now();
+void Link::heartbeat(Clock::time_point now) {
     if (!beating_ || now < next_heartbeat_) return;
     can::Frame beat;
     beat.id = can::heartbeat_id(options_.master).id, beat.length = 1, beat.data[0] = 5;
@@ -106,6 +105,7 @@ void Link::take_foreign(const can::Frame& frame) {
 }
 
 void Link::take(const can::Frame& frame) {
+    if (options_.heard) options_.heard(frame);
     table_.add(frame);
     if (frame.error || frame.remote || frame.extended) return;
     if (id_of(frame) == can::answer_id(options_.node) && frame.length == 8) take_answer(frame);
@@ -121,16 +121,22 @@ bool Link::listen(Clock::time_point until, const std::function<bool()>& enough) 
         const auto now = Clock::now();
         if (now >= until) return false;
         can::Frame frame;
-        heartbeat();
+        heartbeat(now);
         if (bus_.receive(frame, std::min<std::chrono::nanoseconds>(until - now, milliseconds(20))))
             take(frame);
     }
     return true;
 }
 
+// A request that the bus did not take counts as none: an interface that is down says so itself,
+// when it has lasted (BusError).
 std::uint32_t Link::request(const can::Frame& frame) {
     ++report_.requests;
-    for (int i = 0; i < options_.tries; ++i) {
+    const long before = bus_.health().not_sent;
+    const auto tries = [&] {
+        return options_.tries + std::min(4L * options_.tries, bus_.health().not_sent - before);
+    };
+    for (int i = 0; i < tries(); ++i) {
         if (i > 0) ++report_.repeated_requests;
         answer_.reset();
         asked_ = frame;
@@ -154,17 +160,18 @@ void Link::write(std::uint16_t index, std::uint8_t sub, std::uint32_t value, int
     request(sdo_frame(options_.node, std::uint8_t(0x23 | (4 - bytes) << 2), index, sub, value));
 }
 
-// The node's time stands still until the next SYNC: a lost one is sent again.
+// The node's time stands still until the next SYNC: a lost one is sent again, soon, for one too
+// many does no harm.
 void Link::sync() {
     can::Frame frame;
     frame.id = kSync;
-    for (int i = 0; i < options_.tries; ++i) {
+    for (int i = 0; i < 4 * options_.tries; ++i) {
         if (i > 0) ++report_.repeated_syncs;
         next_heartbeat_ = {}; // of its time we know no more than the SYNCs: a heartbeat for each
-        heartbeat();
+        heartbeat(Clock::now());
         const long before = beats_;
         bus_.send(frame);
-        if (listen(Clock::now() + milliseconds(options_.answer_ms),
+        if (listen(Clock::now() + milliseconds(options_.answer_ms / 4),
                    [&] { return beats_ > before; }))
             return;
     }

@@ -14,10 +14,11 @@ namespace servoid {
 struct LinkOptions {
     int node = 1, master = 127;
     int timeout_ms = 500; // without our heartbeat the drive holds its axis
-    int answer_ms = 100;  // for an answer; then the request is sent again
-    int tries = 10;
+    int answer_ms = 200;  // for an answer; then the request is sent again
+    int tries = 5;
     bool free_running = false; // the drive's time passes with our SYNC
     std::function<bool()> cancelled = [] { return false; };
+    std::function<void(const can::Frame&)> heard; // every frame that comes; may be empty
 };
 
 // The drive's answer to a request: no.
@@ -71,7 +72,7 @@ class Link {
     const can::Bus& bus() const { return bus_; }
 
   private:
-    void heartbeat();
+    void heartbeat(Clock::time_point now);
     void sync();
     void take(const can::Frame& frame);
     void take_answer(const can::Frame& frame);

@@ -1,12 +1,14 @@
 #include "node/master.hpp"
 
 #include "common/scaled.hpp"
+#include "servoid/sid_sdo.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace servoid {
 
@@ -15,11 +17,13 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::uint16_t kAxis = 0x2A00, kCommand = 0x2A01, kStatus = 0x2A02, kOptions = 0x2A03,
-                        kFrequency = 0x2A05, kAmplitude = 0x2A06, kResult = 0x2A10;
+                        kLimits = 0x2A04, kFrequency = 0x2A05, kAmplitude = 0x2A06,
+                        kResult = 0x2A10;
 constexpr int kVersion = 1;
 constexpr auto kStalled = std::chrono::seconds(2); // nothing goes on for so long: a fault
-constexpr auto kAsk = milliseconds(20);            // silence on a move after which it is asked for
-constexpr auto kLook = milliseconds(50);           // between two looks at a run's state
+constexpr auto kAsk = milliseconds(20);            // a move that gets no further is asked for
+constexpr auto kLook = milliseconds(500);          // between two looks at a run's state,
+constexpr auto kSilence = milliseconds(100);       // or after so long without telemetry
 constexpr std::uint32_t kReferencesInFrame = 14;
 // On the way to the drive at once: a quarter of a second at 8 kHz, for answers that take so long.
 constexpr std::uint32_t kInFlight = 146 * kReferencesInFrame;
@@ -178,6 +182,24 @@ std::optional<RunEnd> Master::end_of(const Status& now) {
     return RunEnd{now, now.state == SID_STATE_DONE ? "" : sid_reason_text(now.reason)};
 }
 
+// Until something wants a closer look at the state: the telemetry tells an end, or has fallen
+// silent. Each look takes some round trips in which nothing is streamed.
+void Master::attend(const std::function<RunProgress()>& look, const OnProgress& progress) {
+    const auto until = Link::Clock::now() + kLook;
+    auto silent_at = Link::Clock::now() + kSilence;
+    long rows = link_.telemetry().rows();
+    do {
+        const RunProgress told = look(); // streams, too
+        if (progress && Link::Clock::now() >= progress_at_) {
+            progress(told);
+            progress_at_ = Link::Clock::now() + milliseconds(100);
+        }
+        link_.pump(milliseconds(5));
+        if (std::exchange(rows, link_.telemetry().rows()) != rows)
+            silent_at = Link::Clock::now() + kSilence;
+    } while (Link::Clock::now() < std::min(until, silent_at) && !link_.tells_an_end());
+}
+
 // A drive whose time stands still would never end: its interrupt is dead, or waits for SYNC.
 RunEnd Master::wait_for_end(const std::function<RunProgress(const Status&)>& look,
                             const OnProgress& progress) {
@@ -189,19 +211,26 @@ RunEnd Master::wait_for_end(const std::function<RunProgress(const Status&)>& loo
             throw can::BusError(fmt::format("the time of node {} stands still: a free-running "
                                             "drive (--free)?",
                                             link_.options().node));
-        status_at_ = Link::Clock::now() + kLook;
-        do {
-            const RunProgress told = look(now); // streams, too
-            if (progress && Link::Clock::now() >= progress_at_) {
-                progress(told);
-                progress_at_ = Link::Clock::now() + milliseconds(100);
-            }
-            link_.pump(milliseconds(5));
-        } while (Link::Clock::now() < status_at_ && !link_.tells_an_end());
+        attend([&] { return look(now); }, progress);
         const Status next = status();
         if (next.tick != now.tick) lived_at = Link::Clock::now();
         now = next;
     }
+}
+
+void Master::set_limit(std::uint8_t sub, double value, const char* option) try {
+    if (value != 0 && !(value >= 1 && value <= 2147483647.0))
+        throw UsageError(fmt::format("{}: not what this drive can count", option));
+    link_.write(kLimits, sub, std::uint32_t(value), 4);
+} catch (const SdoAbort& no) {
+    if (no.code() != SID_SDO_RANGE) throw;
+    throw UsageError(fmt::format("{}: wider than the drive itself allows", option));
+}
+
+void Master::set_limits(const Limits& limits) {
+    const double count = scales_.count * std::ldexp(1, scales_.position_shift);
+    set_limit(1, std::ldexp(limits.torque / scales_.rated_torque, 20), "--torque-limit");
+    set_limit(2, limits.stroke / count, "--stroke");
 }
 
 void Master::set_plan(const std::vector<PlannedSine>& plan, const SessionOptions& options) {

@@ -30,6 +30,12 @@ struct Status {
     std::uint32_t tick = 0; // the drive's time
 };
 
+// Beyond them the drive itself holds its axis: N·m or N, and rad or m from the start of the run.
+// 0: what the drive is configured with, and no wider than that.
+struct Limits {
+    double torque = 0, stroke = 0;
+};
+
 // Told some ten times a second of the machine's time.
 struct RunProgress {
     std::string what; // "leg 2 of 5, 60 Hz", "3.2 of 7.1 s"
@@ -66,6 +72,9 @@ class Master {
     DriveCounts counts();
     double position(); // rad or m, of the newest sample; waits for one
 
+    // For every run from now on. Throws UsageError where they are wider than the drive's own.
+    void set_limits(const Limits& limits);
+
     // A session of these sines (reference amplitudes in rad or m) by the drive's own core. The
     // results, one for each, are worth something where the end is without fault.
     RunEnd identify(const std::vector<PlannedSine>& plan, const SessionOptions& options,
@@ -86,8 +95,10 @@ class Master {
     void set_up(const std::function<void()>& writes);
     RunEnd wait_for_end(const std::function<RunProgress(const Status&)>& look,
                         const OnProgress& progress);
+    void attend(const std::function<RunProgress()>& look, const OnProgress& progress);
     std::optional<RunEnd> end_of(const Status& now);
     void set_plan(const std::vector<PlannedSine>& plan, const SessionOptions& options);
+    void set_limit(std::uint8_t sub, double value, const char* option);
     void fill(const std::vector<std::int32_t>& references);
     void stream_some(const std::vector<std::int32_t>& references);
     void look_at_stream();
@@ -98,7 +109,7 @@ class Master {
     std::uint32_t token_, run_;
     std::uint32_t sent_ = 0, filled_ = 0, played_ = 0; // of a streamed move
     std::uint16_t told_ = 0;                           // number of the drive's last word on it
-    Link::Clock::time_point ask_at_{}, moved_at_{}, progress_at_{}, status_at_{};
+    Link::Clock::time_point ask_at_{}, moved_at_{}, progress_at_{};
     bool claimed_ = false;
 };
 

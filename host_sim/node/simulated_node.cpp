@@ -56,10 +56,13 @@ void SimulatedNode::configure(const Model& model) {
     config_.identify.step_limit_count = 1 << 16;
     config_.identify.stroke_limit_count =
         stroke_counts(options_.stroke, per_count, config_.identify.step_limit_count);
-    if (model.drive.torque_limit > 0)
-        config_.identify.torque_limit_pu_q20 = std::int32_t(
-            std::min(std::ldexp(model.drive.torque_limit / drive_.full_torque(), 20) + 1,
-                     double(kFurthest)));
+    // A torque at the limit is cut off: no inertia follows from it.
+    if (model.drive.torque_limit > 0) {
+        const double limit = std::ldexp(model.drive.torque_limit / drive_.full_torque(), 20);
+        config_.identify.torque_limit_pu_q20 = std::int32_t(std::min(limit + 1, double(kFurthest)));
+        config_.identify.torque_saturation_pu_q20 =
+            std::int32_t(std::min(limit, double(kFurthest)));
+    }
     config_.plan = plan_.data(), config_.plan_capacity = kPlan;
     config_.node_id = std::uint8_t(options_.node);
     config_.master_id = std::uint8_t(options_.master);

@@ -1,6 +1,7 @@
 # A simulated drive and its master on the buses, with or without a bad cable between them. For the
 # scripts that need both; nothing here may wait without an end.
 . "$(dirname "$0")/support.sh"
+scripts=$(realpath "$(dirname "$0")")
 cable=$(dirname "$servoid")/servoid_fault_bridge
 trap 'kill -KILL $(jobs -p) 2>/dev/null || true; rm -rf "$work"' EXIT
 
@@ -60,3 +61,33 @@ command_() {
     *) fail "command $*: exit $status: $(cat "$name.err")" ;;
     esac
 }
+
+# What the faults do to a session and a move is held against the same on a good bus. A session in
+# free-running time, so that nothing depends on this machine's speed but what is meant to.
+amplitude=0.5
+sines=(identify --amplitude $amplitude --frequency 50 100 --windows 3)
+the_move=trapezoid:stroke=6.28,velocity=40
+
+# J and its σ at 50 and 100 Hz, a line each.
+inertias() {
+    jq -r '.frequencies[].inertia | "\(.value) \(.std)"' "$1"
+}
+# same_inertia GOOD TESTED: within three of its σ, at both frequencies.
+same_inertia() {
+    paste <(inertias "$1") <(inertias "$2") | awk '
+        { d = $3 - $1; if (d < 0) d = -d; if (!($4 > 0) || d > 3 * $4) exit 1; ++lines }
+        END { exit lines != 2 }'
+}
+
+# heard_references LOG MODEL: every row in the log carries what the move asked for; "N rows, 0 wrong"
+# in $rows.
+heard_references() {
+    [ -s "$2.ref.csv" ] ||
+        "$servoid" simulate "$examples/$2.toml" --experiment $the_move --out "$2.ref.csv" --quiet
+    awk -f "$scripts/references.awk" "$2.ref.csv" "$1" >rows.out ||
+        fail "the drive followed another reference than was asked for: $(cat rows.out)"
+    rows=$(cat rows.out)
+}
+
+# figure_of FAULT NAME HOW: one line of the table.
+figure_of() { echo "figure: $1 | $2 | $3"; }

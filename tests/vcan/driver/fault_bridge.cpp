@@ -5,8 +5,8 @@
 //
 // Each fault strikes each frame with its own probability, in both directions alike; the delay is
 // drawn anew for each frame, up to MS, and keeps the order. --at runs a command of the shell once
-// so many frames of telemetry have passed, and nothing passes until it has ended. SIGTERM ends it;
-// then it says on stdout what it has done.
+// so many frames of a run's telemetry have passed, and nothing passes until it has ended. SIGTERM
+// ends it; then it says on stdout what it has done.
 #include "can/bus.hpp"
 #include "can/can_socket.hpp"
 
@@ -64,6 +64,12 @@ std::uint8_t shorter(std::uint8_t length, std::mt19937& random) {
     return lengths[std::size_t(std::uniform_int_distribution<long>(0, below - 1)(random))];
 }
 
+// Samples of telemetry that say that something runs (SPEC.md, "Telemetry").
+bool is_of_a_run(const canfd_frame& frame) {
+    return (frame.can_id & ~0x7FU) == 0x480 && frame.len == 64 && frame.data[0] == 1 &&
+           (frame.data[63] == 1 || frame.data[63] == 2);
+}
+
 // One direction.
 class Lane {
   public:
@@ -76,20 +82,21 @@ class Lane {
     long take() {
         long telemetry = 0;
         Wire wire;
+        const auto now = Clock::now();
         for (int i = 0; i < 64; ++i) {
             const ssize_t got = ::read(from_, &wire.frame, sizeof wire.frame);
             if (got <= 0) break;
             if (wire.frame.can_id & CAN_ERR_FLAG) continue; // each wire has its own errors
             wire.bytes = std::size_t(got);
-            telemetry += (wire.frame.can_id & ~0x7FU) == 0x480;
+            telemetry += is_of_a_run(wire.frame);
+            wire.due = now;
             strike(wire);
-            pass();
+            pass(now);
         }
         return telemetry;
     }
 
-    void pass() {
-        const auto now = Clock::now();
+    void pass(Clock::time_point now) {
         while (!queue_.empty() && queue_.front().due <= now) {
             write(queue_.front());
             queue_.pop_front();
@@ -106,6 +113,7 @@ class Lane {
 
     // Until the next frame is due.
     milliseconds wait() const {
+        if (queue_.empty() && held_.empty()) return milliseconds(100);
         auto next = Clock::now() + milliseconds(100);
         if (!queue_.empty()) next = std::min(next, queue_.front().due);
         for (const Wire& one : held_)
@@ -128,7 +136,6 @@ class Lane {
             ++counts_.cut;
             wire.frame.len = shorter(wire.frame.len, random_);
         }
-        wire.due = Clock::now();
         if (strikes(faults_.reorder)) {
             ++counts_.overtaken;
             wire.overtakers = std::uniform_int_distribution<>(1, 3)(random_);
@@ -212,7 +219,8 @@ void run(const Options& o) {
         std::array<pollfd, 2> both{pollfd{masters, POLLIN, 0}, pollfd{drives, POLLIN, 0}};
         ::poll(both.data(), both.size(), int(std::min(down.wait(), up.wait()).count()));
         down.take(), telemetry += up.take();
-        down.pass(), up.pass();
+        const auto now = Clock::now();
+        down.pass(now), up.pass(now);
         while (next < o.triggers.size() && telemetry >= o.triggers[next].telemetry_frames)
             if (std::system(o.triggers[next++].command.c_str()) != 0)
                 fmt::print("bridge: `{}` failed\n", o.triggers[next - 1].command);
