@@ -24,15 +24,19 @@ wait_for() { # TEXT FILE
 # drive MODEL INTERFACE OPTIONS...: into drive.json; its process in $drive.
 drive() {
     : >drive.err
-    "$servoid" drive "$examples/$1.toml" --can "$2" --for 60 --json "${@:3}" >drive.json 2>drive.err &
+    "$servoid" drive "$examples/$1.toml" --can "$2" --for "${drive_for:-60}" --json "${@:3}" >drive.json 2>drive.err &
     drive=$!
     wait_for "node 1 on" drive.err
 }
 
-# The drive is switched off; whatever happened to it, its axis is at rest. One turn of 8 periods may
-# see the encoder flicker by a count.
+# The drive is switched off, or ends by itself with that exit code; whatever happened to it, its axis
+# is at rest. One turn of 8 periods may see the encoder flicker by a count.
 drive_ends() { # [EXIT CODE]
-    local status=0
+    local status=0 tries
+    for ((tries = 0; ${1:-0} != 0 && tries < 100; tries++)); do
+        kill -0 "$drive" 2>/dev/null || break
+        sleep 0.05
+    done
     kill -TERM "$drive" 2>/dev/null || true
     wait "$drive" || status=$?
     [ "$status" -eq "${1:-0}" ] || fail "the drive ends with $status: $(cat drive.err)"
