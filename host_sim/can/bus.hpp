@@ -29,7 +29,8 @@ class Bus {
   public:
     virtual ~Bus() = default;
     // Gives the frame to the bus; waits at most some tens of milliseconds for room, then counts it
-    // as not_sent. Throws BusError where there is no bus any more.
+    // as not_sent, and at once where the interface is down. Throws BusError where there is no bus
+    // any more.
     virtual void send(const Frame& frame) = 0;
     // The next frame, error frames included; false where none came within `wait`. Frames come in
     // the order in which the bus carried them, and never the own ones.

@@ -121,7 +121,7 @@ void SocketCan::send(const Frame& frame) {
         if (!is_no_room(error)) refuse_sending(interface_, frame, error);
         if (error == ENETDOWN) note_down();
         refuse_lasting_trouble();
-        if (Clock::now() >= until) {
+        if (error == ENETDOWN || Clock::now() >= until) {
             ++health_.not_sent;
             return;
         }
@@ -131,7 +131,7 @@ void SocketCan::send(const Frame& frame) {
 }
 
 bool SocketCan::receive(Frame& frame, std::chrono::nanoseconds wait) {
-    const auto until = Clock::now() + wait;
+    std::optional<Clock::time_point> until; // where a frame waits, no clock is read
     for (;;) {
         if (queue_.empty() || ++given_since_drain_ >= kGivenBetweenDrains) drain();
         if (!queue_.empty()) {
@@ -140,7 +140,9 @@ bool SocketCan::receive(Frame& frame, std::chrono::nanoseconds wait) {
             return true;
         }
         refuse_lasting_trouble();
-        const auto left = until - Clock::now();
+        const auto now = Clock::now();
+        if (!until) until = now + wait;
+        const auto left = *until - now;
         if (left <= 0ns) return false;
         const bool trouble = down_since_ || off_since_;
         if (!wait_for_frames(trouble ? std::min<std::chrono::nanoseconds>(left, kLook) : left))

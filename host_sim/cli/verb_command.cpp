@@ -1,5 +1,6 @@
 // servoid command: the other end of a drive on the bus. Runs sessions and moves on it, and keeps
 // what it tells.
+#include "can/candump.hpp"
 #include "can/socketcan.hpp"
 #include "cli/app.hpp"
 #include "cli/bus_output.hpp"
@@ -11,6 +12,7 @@
 #include "node/master.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -26,7 +28,8 @@ namespace {
 struct Options {
     Output output;
     LinkOptions link;
-    std::string interface, out;
+    Limits limits;
+    std::string interface, out, log;
     // identify
     std::vector<double> frequencies{50};
     double amplitude = 0;
@@ -55,14 +58,21 @@ OnProgress on_terminal(const Output& output) {
 // The bus, the link and what they went through, told in the same words by every run.
 struct Session {
     explicit Session(const Options& o)
-        : bus(o.interface, what_it_hears(o.link)), link(bus, with_signals(o.link)) {}
-    static LinkOptions with_signals(LinkOptions link) {
-        link.cancelled = [] { return EndOnSignal::wanted().load(); };
-        return link;
+        : bus(o.interface, what_it_hears(o.link)), link(bus, wired(o)) {}
+    LinkOptions wired(const Options& o) {
+        LinkOptions out = o.link;
+        out.cancelled = [] { return EndOnSignal::wanted().load(); };
+        if (!o.log.empty())
+            out.heard = [this, name = o.interface](const can::Frame& frame) {
+                log += can::format_candump(frame, name) + "\n";
+            };
+        return out;
     }
+    std::string log;
     EndOnSignal signals;
     can::SocketCan bus;
     Link link;
+    DriveCounts drive;
 };
 
 Json link_json(const Session& s) {
@@ -70,8 +80,12 @@ Json link_json(const Session& s) {
     const can::BusHealth& h = s.bus.health();
     return {{"requests", r.requests},
             {"repeated_requests", r.repeated_requests},
+            {"repeated_syncs", r.repeated_syncs},
             {"stray_answers", r.stray_answers},
             {"foreign_requests", r.foreign_requests},
+            {"foreign_changes", r.foreign_changes},
+            {"references_refused", s.drive.references_refused},
+            {"telemetry_rows_lost", s.drive.rows_lost},
             {"error_frames", h.error_frames},
             {"bus_off", h.bus_off},
             {"interface_down", h.interface_down},
@@ -79,12 +93,42 @@ Json link_json(const Session& s) {
             {"not_sent", h.not_sent}};
 }
 
-void print_link(const Output& out, const Session& s) {
+std::vector<std::string> with(const std::string& first, std::vector<std::string> rest) {
+    rest.insert(rest.begin(), first);
+    return rest;
+}
+
+// What went wrong on the way, and what was done about it; nothing on a good bus.
+std::vector<std::string> troubles(const Session& s) {
+    std::vector<std::string> out;
     const LinkReport& r = s.link.report();
-    if (r.repeated_requests > 0)
-        out.line(fmt::format("{} of {} requests were sent again", r.repeated_requests, r.requests));
-    if (r.foreign_requests > 0)
-        out.line(fmt::format("another master talks to this node: {} frames", r.foreign_requests));
+    const can::BusHealth& h = s.bus.health();
+    const auto tell = [&](long times, const std::string& text) {
+        if (times > 0) out.push_back(text);
+    };
+    tell(r.repeated_requests + r.repeated_syncs,
+         fmt::format("{} of {} requests and {} SYNC were sent again", r.repeated_requests,
+                     r.requests, r.repeated_syncs));
+    tell(r.foreign_requests,
+         fmt::format("another master talks to this node: {} frames, {} of them with effect",
+                     r.foreign_requests, r.foreign_changes));
+    tell(s.drive.references_refused,
+         fmt::format("{} frames of references came after a lost one, and were sent again",
+                     s.drive.references_refused));
+    tell(s.drive.rows_lost,
+         fmt::format("{} rows of telemetry found no room in the drive", s.drive.rows_lost));
+    tell(h.bus_off, fmt::format("bus off {} times", h.bus_off));
+    tell(h.interface_down, fmt::format("the interface was down {} times", h.interface_down));
+    tell(h.dropped, fmt::format("{} frames found no room here", h.dropped));
+    tell(h.not_sent, fmt::format("{} frames could not be sent", h.not_sent));
+    tell(s.link.telemetry().resets(),
+         fmt::format("the drive was reset {} times", s.link.telemetry().resets()));
+    return out;
+}
+
+void print_link(const Output& out, const Session& s) {
+    for (const std::string& text : troubles(s))
+        out.line(text);
 }
 
 // Telemetry as captures; nothing where too little came.
@@ -92,6 +136,7 @@ std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
     try {
         can::BusCaptures out = s.link.telemetry().captures(o.interface);
         out.report.dropped = s.bus.health().dropped;
+        out.report.interface_down = s.bus.health().interface_down;
         return out;
     } catch (const Error& e) {
         o.output.note(std::string("no capture: ") + e.what());
@@ -99,20 +144,40 @@ std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
     }
 }
 
-// The longest stretch goes into the file.
-void keep(const std::optional<can::BusCaptures>& all, const Options& o) {
+// The longest stretch goes into the file, everything into the log.
+void keep(const std::optional<can::BusCaptures>& all, const Session& s, const Options& o) {
+    if (!o.log.empty()) write_file(o.log, s.log);
     if (!all) return;
     print_bus(o.output, *all, true);
     if (o.out.empty()) return;
     const Capture& capture = longest(all->captures);
     write_file(o.out, format_capture_csv(capture));
-    o.output.line(fmt::format("wrote {}: {} samples", o.out, capture.rows()));
+    const std::size_t stretches = all->captures.size();
+    o.output.line(fmt::format("wrote {}: {} samples{}", o.out, capture.rows(),
+                              stretches == 1 ? ""
+                                             : fmt::format(", the longest of {} stretches without "
+                                                           "a lost sample",
+                                                           stretches)));
+}
+
+// However a run ends, what was recorded until then is kept; and a fault says what else was seen.
+template <class Work> auto run_on(Session& s, const Options& o, const Work& work) {
+    try {
+        return work();
+    } catch (const can::BusError& e) {
+        keep(heard(s, o), s, o);
+        throw can::BusError(fmt::format("{}", fmt::join(with(e.what(), troubles(s)), "; ")));
+    }
 }
 
 // After the capture is safe: a fault of the drive or the bus is exit 5, data that cannot answer 4.
-void refuse_if_not_whole(const RunEnd& end) {
-    if (end.fault.empty()) return;
-    throw can::BusError("the drive ended the run: " + end.fault);
+void refuse_if_not_whole(const RunEnd& end, const Session& s) {
+    const auto all = [&](const std::string& first) {
+        return fmt::format("{}", fmt::join(with(first, troubles(s)), "; "));
+    };
+    if (!end.fault.empty()) throw can::BusError(all("the drive ended the run: " + end.fault));
+    if (s.link.report().foreign_changes > 0)
+        throw can::BusError(all("not what was asked for: another master has changed the drive"));
 }
 
 void refuse_if_no_answer(const std::vector<SessionResult>& results) {
@@ -120,7 +185,8 @@ void refuse_if_no_answer(const std::vector<SessionResult>& results) {
         if (r.reason != SID_OK)
             throw Refusal(
                 fmt::format("at {:.4g} Hz: {}", r.frequency_Hz, sid_reason_text(r.reason)),
-                "another frequency or a larger amplitude");
+                r.reason == SID_SATURATED ? "a smaller amplitude or a lower frequency"
+                                          : "another frequency or a larger amplitude");
 }
 
 // The drive's own answer, with the deviation that the capture of the same move gives where the
@@ -163,27 +229,39 @@ std::vector<Identification> from_telemetry(const std::optional<can::BusCaptures>
     }
 }
 
-void run_identify(const Options& o) {
-    Session s(o);
+struct Answer {
+    RunEnd end;
+    std::vector<SessionResult> results;
+    bool linear = false;
+};
+
+Answer measured(Session& s, const Options& o) {
     Master master(s.link);
     std::vector<PlannedSine> plan;
     for (double f : o.frequencies)
         plan.push_back({f, o.amplitude});
-    const RunEnd end = master.identify(plan, o.session, on_terminal(o.output));
-    std::vector<SessionResult> results;
-    if (end.fault.empty() || is_refusal(end.status.reason)) results = master.results(plan);
+    Answer out;
+    out.linear = master.scales().linear;
+    master.set_limits(o.limits);
+    out.end = master.identify(plan, o.session, on_terminal(o.output));
+    if (out.end.fault.empty() || is_refusal(out.end.status.reason))
+        out.results = master.results(plan);
     master.finish();
+    s.drive = master.counts();
+    return out;
+}
+
+void run_identify(const Options& o) {
+    Session s(o);
+    const Answer answer = run_on(s, o, [&] { return measured(s, o); });
     const auto all = heard(s, o);
-    keep(all, o);
-    if (is_refusal(end.status.reason)) refuse_if_no_answer(results);
-    refuse_if_not_whole(end);
-    refuse_if_no_answer(results);
-    const auto own = as_identifications(results, from_telemetry(all, o), o.session);
-    const Capture none = [&] {
-        Capture c;
-        c.linear = master.scales().linear;
-        return c;
-    }();
+    keep(all, s, o);
+    if (is_refusal(answer.end.status.reason)) refuse_if_no_answer(answer.results);
+    refuse_if_not_whole(answer.end, s);
+    refuse_if_no_answer(answer.results);
+    const auto own = as_identifications(answer.results, from_telemetry(all, o), o.session);
+    Capture none;
+    none.linear = answer.linear;
     const Capture& capture = all ? longest(all->captures) : none;
     Json json = identification_json(own, capture);
     if (all) json["bus"] = bus_json(all->report);
@@ -199,7 +277,8 @@ Json move_json(const Options& o, const RunEnd& end, const std::optional<can::Bus
                  {"experiment", o.experiment},
                  {"status", end.fault.empty() ? "ok" : end.fault},
                  {"out", o.out.empty() ? Json(nullptr) : Json(o.out)},
-                 {"samples", all ? longest(all->captures).rows() : 0}};
+                 {"samples", all ? longest(all->captures).rows() : 0},
+                 {"stretches", all ? all->captures.size() : 0}};
     if (all) json["bus"] = bus_json(all->report);
     json["link"] = link_json(s);
     return json;
@@ -224,24 +303,31 @@ Experiment approach(const Experiment& experiment, double from, double to) {
     return out;
 }
 
+RunEnd moved(Session& s, const Options& o, const Experiment& experiment) {
+    Master master(s.link);
+    master.set_limits(o.limits);
+    const double stands = master.position();
+    RunEnd end;
+    if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
+        o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
+        end = master.move(approach(experiment, stands, experiment.start), on_terminal(o.output));
+        s.link.wait(0.5);
+    }
+    if (end.fault.empty()) end = master.move(experiment, on_terminal(o.output));
+    master.finish();
+    s.drive = master.counts();
+    return end;
+}
+
 void run_move(const Options& o) {
     const Experiment experiment = parse_experiment(o.experiment);
     Session s(o);
-    Master master(s.link);
-    const double stands = master.position();
-    if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
-        o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
-        refuse_if_not_whole(
-            master.move(approach(experiment, stands, experiment.start), on_terminal(o.output)));
-        s.link.wait(0.5);
-    }
-    const RunEnd end = master.move(experiment, on_terminal(o.output));
-    master.finish();
+    const RunEnd end = run_on(s, o, [&] { return moved(s, o, experiment); });
     const auto all = heard(s, o);
+    keep(all, s, o);
     o.output.print_json(move_json(o, end, all, s));
-    keep(all, o);
     print_link(o.output, s);
-    refuse_if_not_whole(end);
+    refuse_if_not_whole(end, s);
 }
 
 // What `diagnose` would record next, recorded.
@@ -292,12 +378,19 @@ void add_link_options(const Verb& verb, Options& o) {
     verb.add_option("--timeout", o.link.timeout_ms,
                     "ms without our heartbeat after which the drive holds its axis (default 500)")
         .between(20, 60000);
+    verb.add_option("--torque-limit", o.limits.torque,
+                    "N·m or N at which the drive holds its axis (default: its own)")
+        .positive();
+    verb.add_option("--stroke", o.limits.stroke,
+                    "rad or m from the start of a run at which the drive holds its axis")
+        .positive();
     verb.add_flag("--free", o.link.free_running, "the drive is free-running: give it SYNC");
     add_output_options(verb, o.output);
 }
 
 void add_out(const Verb& run, Options& o) {
-    run.add_option("--out", o.out, "write what was recorded as .csv");
+    run.add_option("--out", o.out, "write what was recorded as .csv: the longest stretch");
+    run.add_option("--log", o.log, "write all that was heard as a candump log");
 }
 
 void add_identify_run(const Verb& verb, const std::shared_ptr<Options>& o) {

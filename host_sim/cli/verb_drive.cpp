@@ -35,6 +35,7 @@ Model model_of(const Options& o) {
 
 can::SocketCanOptions what_it_hears(const NodeOptions& node) {
     can::SocketCanOptions out;
+    out.send_wait = std::chrono::milliseconds(2); // the control goes on, whatever the bus takes
     out.listen_to = {
         {0x000, false}, {0x080, false}, can::request_id(node.node), can::references_id(node.node)};
     for (int master = 1; master < 128; ++master) // the master may choose its number
@@ -60,7 +61,12 @@ Json to_json(const NodeReport& r, const can::BusHealth& bus) {
             {"sent", bus.sent},
             {"not_sent", bus.not_sent},
             {"received", bus.received},
-            {"dropped", bus.dropped}};
+            {"dropped", bus.dropped},
+            {"telemetry_rows_lost", r.rows_lost},
+            {"reference_frames_refused", r.references_refused},
+            {"error_frames", bus.error_frames},
+            {"bus_off", bus.bus_off},
+            {"interface_down", bus.interface_down}};
 }
 
 void print(const Output& out, const NodeReport& r, const can::BusHealth& bus) {
@@ -74,6 +80,13 @@ void print(const Output& out, const NodeReport& r, const can::BusHealth& bus) {
     if (r.lost_time_s > 0)
         out.line(fmt::format("this machine was too slow for real time by {:.3g} s", r.lost_time_s));
     out.line(fmt::format("{} frames sent, {} found no room on the bus", bus.sent, bus.not_sent));
+    const auto tell = [&](const char* what, long times) {
+        if (times > 0) out.line(fmt::format("{}: {}", what, times));
+    };
+    tell("resets", r.resets), tell("bus off", bus.bus_off);
+    tell("interface down", bus.interface_down), tell("received, but no room for it", bus.dropped);
+    tell("rows of telemetry lost", r.rows_lost);
+    tell("frames of references refused", r.references_refused);
 }
 
 void run_drive(const Options& o) {

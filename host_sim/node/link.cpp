@@ -45,6 +45,15 @@ bool same_object(const can::Frame& a, const can::Frame& b) {
     return std::equal(a.data.begin() + 1, a.data.begin() + 4, b.data.begin() + 1);
 }
 
+bool is_write(const can::Frame& request) { return (request.data[0] & 0xE0) == 0x20; }
+
+// Of that kind and that object. A refusal fits both kinds.
+bool answers(const can::Frame& answer, const can::Frame& request) {
+    const int kind = answer.data[0] & 0xE0;
+    return same_object(answer, request) &&
+           (kind == 0x80 || kind == (is_write(request) ? 0x60 : 0x40));
+}
+
 std::uint32_t value_of(const can::Frame& frame) {
     std::uint32_t out = 0;
     for (std::size_t i = 8; i-- > 4;)
@@ -65,32 +74,47 @@ SdoAbort::SdoAbort(std::uint32_t code, const std::string& what)
 Link::Link(can::Bus& bus, const LinkOptions& options)
     : bus_(bus), options_(options), table_(options.node) {}
 
-void Link::heartbeat() {
-    const auto now = Clock::now();
-    if (now < next_heartbeat_) return;
+void Link::heartbeat(Clock::time_point now) {
+    if (!beating_ || now < next_heartbeat_) return;
     can::Frame beat;
     beat.id = can::heartbeat_id(options_.master).id, beat.length = 1, beat.data[0] = 5;
     bus_.send(beat);
-    // Of a free-running drive's time we know no more than the SYNCs: one heartbeat for each.
-    next_heartbeat_ = options_.free_running ? now : now + milliseconds(options_.timeout_ms / 5);
+    next_heartbeat_ = now + milliseconds(options_.timeout_ms / 5);
+}
+
+void Link::take_answer(const can::Frame& frame) {
+    if (asked_ && answers(frame, *asked_)) {
+        answer_ = frame;
+        asked_.reset();
+        return;
+    }
+    ++report_.stray_answers;
+    if (!foreign_ || !same_object(frame, *foreign_)) return;
+    report_.foreign_changes += frame.data[0] == 0x60;
+    foreign_.reset();
+}
+
+// Our own frames do not come back: these are somebody else's.
+void Link::take_foreign(const can::Frame& frame) {
+    const bool request = id_of(frame) == can::request_id(options_.node),
+               references = id_of(frame) == can::references_id(options_.node),
+               beat = id_of(frame) == can::heartbeat_id(options_.master);
+    if (!request && !references && !beat) return;
+    ++report_.foreign_requests;
+    report_.foreign_changes += references;
+    if (request && frame.length == 8 && is_write(frame)) foreign_ = frame;
 }
 
 void Link::take(const can::Frame& frame) {
+    if (options_.heard) options_.heard(frame);
     table_.add(frame);
     if (frame.error || frame.remote || frame.extended) return;
-    if (id_of(frame) == can::answer_id(options_.node) && frame.length == 8) {
-        if (answer_) ++report_.stray_answers;
-        answer_ = frame;
-    }
+    if (id_of(frame) == can::answer_id(options_.node) && frame.length == 8) take_answer(frame);
     if (id_of(frame) == can::heartbeat_id(options_.node) && frame.length >= 1) {
         ++beats_;
         if (frame.data[0] == 0) ++boots_;
     }
-    // Our own frames do not come back: these are somebody else's.
-    if (id_of(frame) == can::request_id(options_.node) ||
-        id_of(frame) == can::references_id(options_.node) ||
-        id_of(frame) == can::heartbeat_id(options_.master))
-        ++report_.foreign_requests;
+    take_foreign(frame);
 }
 
 bool Link::listen(Clock::time_point until, const std::function<bool()>& enough) {
@@ -98,7 +122,7 @@ bool Link::listen(Clock::time_point until, const std::function<bool()>& enough) 
         const auto now = Clock::now();
         if (now >= until) return false;
         can::Frame frame;
-        heartbeat();
+        heartbeat(now);
         if (bus_.receive(frame, std::min<std::chrono::nanoseconds>(until - now, milliseconds(20))))
             take(frame);
     }
@@ -111,26 +135,28 @@ void Link::drain() {
         take(frame);
 }
 
-// An answer may be to a request that was repeated: one to another object is passed over.
+// A request that the bus did not take counts as none: an interface that is down says so itself,
+// when it has lasted (BusError).
 std::uint32_t Link::request(const can::Frame& frame) {
     ++report_.requests;
-    for (int i = 0; i < options_.tries; ++i) {
+    const long before = bus_.health().not_sent;
+    const auto tries = [&] {
+        return options_.tries + std::min(4L * options_.tries, bus_.health().not_sent - before);
+    };
+    for (int i = 0; i < tries(); ++i) {
         if (i > 0) ++report_.repeated_requests;
+        asked_.reset();
         drain(); // answers to earlier requests, or to somebody else's
         answer_.reset();
+        asked_ = frame;
         bus_.send(frame);
-        const auto until = Clock::now() + milliseconds(options_.answer_ms);
-        while (listen(until, [&] { return answer_.has_value(); })) {
-            const can::Frame answer = *answer_;
-            answer_.reset();
-            if (!same_object(frame, answer)) {
-                ++report_.stray_answers;
-                continue;
-            }
-            if (answer.data[0] == 0x80) throw SdoAbort(value_of(answer), name_of(frame));
-            return value_of(answer);
-        }
+        if (!listen(Clock::now() + milliseconds(options_.answer_ms),
+                    [&] { return answer_.has_value(); }))
+            continue;
+        if (answer_->data[0] == 0x80) throw SdoAbort(value_of(*answer_), name_of(frame));
+        return value_of(*answer_);
     }
+    asked_.reset();
     throw can::BusError(fmt::format("node {} does not answer ({}, {} times)", options_.node,
                                     name_of(frame), options_.tries));
 }
@@ -143,16 +169,18 @@ void Link::write(std::uint16_t index, std::uint8_t sub, std::uint32_t value, int
     request(sdo_frame(options_.node, std::uint8_t(0x23 | (4 - bytes) << 2), index, sub, value));
 }
 
-// The node's time stands still until the next SYNC: a lost one is sent again.
+// The node's time stands still until the next SYNC: a lost one is sent again, soon, for one too
+// many does no harm.
 void Link::sync() {
     can::Frame frame;
     frame.id = kSync;
-    for (int i = 0; i < options_.tries; ++i) {
+    for (int i = 0; i < 4 * options_.tries; ++i) {
         if (i > 0) ++report_.repeated_syncs;
-        heartbeat();
+        next_heartbeat_ = {}; // of its time we know no more than the SYNCs: a heartbeat for each
+        heartbeat(Clock::now());
         const long before = beats_;
         bus_.send(frame);
-        if (listen(Clock::now() + milliseconds(options_.answer_ms),
+        if (listen(Clock::now() + milliseconds(options_.answer_ms / 4),
                    [&] { return beats_ > before; }))
             return;
     }
@@ -174,6 +202,10 @@ void Link::wait(double seconds) {
     const double each = kPeriodsPerSync * (told ? told->sample_time_s() : 125e-6);
     for (double t = 0; t < seconds; t += each)
         pump(milliseconds(0));
+}
+
+bool Link::tells_an_end() const {
+    return table_.state() != SID_STATE_MEASURING && table_.state() != SID_STATE_STOPPING;
 }
 
 bool Link::was_reset() {

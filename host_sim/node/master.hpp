@@ -7,6 +7,7 @@
 #include "plant/session.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,13 @@ struct Status {
     sid_state_t state = SID_STATE_IDLE;
     sid_reason_t reason = SID_NOT_RUN;
     int leg = 0;
+    std::uint32_t tick = 0; // the drive's time
+};
+
+// Beyond them the drive itself holds its axis: N·m or N, and rad or m from the start of the run.
+// 0: what the drive is configured with, and no wider than that.
+struct Limits {
+    double torque = 0, stroke = 0;
 };
 
 // Told some ten times a second of the machine's time.
@@ -35,6 +43,12 @@ struct RunProgress {
     long samples = 0; // of telemetry so far
 };
 using OnProgress = std::function<void(const RunProgress&)>;
+
+// What the drive has counted: frames of references that did not continue the ones before, in the
+// last move; rows of telemetry that it could not send, since it was switched on.
+struct DriveCounts {
+    long references_refused = 0, rows_lost = 0;
+};
 
 // How a run ended. `fault` is empty where it ran to its end.
 struct RunEnd {
@@ -47,14 +61,19 @@ class Master {
     // Claims the node, sets the time of the heartbeat, turns telemetry on. Throws BusError: silent,
     // another version, claimed by another master.
     explicit Master(Link& link);
-    // Ends a run that is on, gives the node back; says nothing where the bus is gone.
+    // Ends a run that is on, gives the node back, if it is ours yet; says nothing where the bus is
+    // gone.
     ~Master();
     Master(const Master&) = delete;
     Master& operator=(const Master&) = delete;
 
     const DriveScales& scales() const { return scales_; }
     Status status();
+    DriveCounts counts();
     double position(); // rad or m, of the newest sample; waits for one
+
+    // For every run from now on. Throws UsageError where they are wider than the drive's own.
+    void set_limits(const Limits& limits);
 
     // A session of these sines (reference amplitudes in rad or m) by the drive's own core. The
     // results, one for each, are worth something where the end is without fault.
@@ -72,18 +91,25 @@ class Master {
     void read_scales();
     void claim();
     void start();
+    // What the run needs is written, then it is started. Says why where the node does not take it.
+    void set_up(const std::function<void()>& writes);
     RunEnd wait_for_end(const std::function<RunProgress(const Status&)>& look,
                         const OnProgress& progress);
+    void attend(const std::function<RunProgress()>& look, const OnProgress& progress);
+    std::optional<RunEnd> end_of(const Status& now);
     void set_plan(const std::vector<PlannedSine>& plan, const SessionOptions& options);
+    void set_limit(std::uint8_t sub, double value, const char* option);
+    void fill(const std::vector<std::int32_t>& references);
     void stream_some(const std::vector<std::int32_t>& references);
+    void look_at_stream();
     double read_scaled(std::uint16_t index, std::uint8_t sub);
 
     Link& link_;
     DriveScales scales_;
     std::uint32_t token_, run_;
     std::uint32_t sent_ = 0, filled_ = 0, played_ = 0; // of a streamed move
-    int stalled_ = 0;
-    Link::Clock::time_point progress_at_{};
+    std::uint16_t told_ = 0;                           // number of the drive's last word on it
+    Link::Clock::time_point ask_at_{}, moved_at_{}, progress_at_{};
     bool claimed_ = false;
 };
 

@@ -56,10 +56,13 @@ void SimulatedNode::configure(const Model& model) {
     config_.identify.step_limit_count = 1 << 16;
     config_.identify.stroke_limit_count =
         stroke_counts(options_.stroke, per_count, config_.identify.step_limit_count);
-    if (model.drive.torque_limit > 0)
-        config_.identify.torque_limit_pu_q20 = std::int32_t(
-            std::min(std::ldexp(model.drive.torque_limit / drive_.full_torque(), 20) + 1,
-                     double(kFurthest)));
+    // A torque at the limit is cut off: no inertia follows from it.
+    if (model.drive.torque_limit > 0) {
+        const double limit = std::ldexp(model.drive.torque_limit / drive_.full_torque(), 20);
+        config_.identify.torque_limit_pu_q20 = std::int32_t(std::min(limit + 1, double(kFurthest)));
+        config_.identify.torque_saturation_pu_q20 =
+            std::int32_t(std::min(limit, double(kFurthest)));
+    }
     config_.plan = plan_.data(), config_.plan_capacity = kPlan;
     config_.node_id = std::uint8_t(options_.node);
     config_.master_id = std::uint8_t(options_.master);
@@ -74,12 +77,16 @@ void SimulatedNode::power_up() {
     base_ = drive_.counts();
     if (!sid_node_init(&node_, &config_)) throw Error(ExitCode::defect, "the node's configuration");
     last_run_ = 0;
+    interrupt(); // the timer runs before the bus is served
 }
 
 void SimulatedNode::interrupt() {
     const sid_sample_t sample = {std::uint32_t(drive_.counts()), torque_};
     sid_command_t command;
     sid_node_step(&node_, &sample, &command);
+    // Now: another master's heartbeat may come before anybody looks.
+    if (node_.held != 0 && !held_) report_.held_after = long(node_.held_tick - node_.master_seen);
+    held_ = node_.held != 0;
     const std::int32_t zero = node_.run.start_tick != 0 ? std::int32_t(node_.run.start_raw) : base_;
     const std::int32_t reference =
         std::int32_t(std::uint32_t(zero) * 256U + std::uint32_t(command.reference_q8));
@@ -123,6 +130,7 @@ void SimulatedNode::turn() {
     send_all();
     if (!sid_node_is_reset_requested(&node_)) return;
     come_to_rest();
+    report_.rows_lost += long(node_.telemetry.lost);
     power_up();
     ++report_.resets;
 }
@@ -173,7 +181,8 @@ void SimulatedNode::run(const std::function<bool()>& stop) try {
 
 // The drive goes on without the bus: its own watch on the master ends a run that is on.
 void SimulatedNode::come_to_rest() {
-    const double limit_s = options_.master_timeout_ms * 1e-3 + 1;
+    const double limit_s =
+        std::max<int>(options_.master_timeout_ms, node_.master_timeout_ms) * 1e-3 + 1;
     const long periods = std::lround(limit_s / drive_.sample_time_s());
     sid_can_frame_t frame;
     for (long k = 0; k < periods; k += kPeriodsPerTurn) {
@@ -187,7 +196,8 @@ NodeReport SimulatedNode::report() const {
     NodeReport out = report_;
     out.state = sid_state_t(node_.state), out.reason = sid_reason_t(node_.reason);
     out.held = node_.held != 0;
-    if (out.held) out.held_after = long(node_.held_tick - node_.master_seen);
+    out.rows_lost += long(node_.telemetry.lost);
+    out.references_refused = long(node_.stream.refused);
     out.speed = (drive_.counts() - counts_before_) * drive_.position_per_count() /
                 (kPeriodsPerTurn * drive_.sample_time_s());
     return out;

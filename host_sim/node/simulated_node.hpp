@@ -34,6 +34,8 @@ struct NodeReport {
     double speed = 0;       // rad/s or m/s over the last turn
     double lost_time_s = 0; // the machine was too slow for real time
     long resets = 0;
+    long rows_lost = 0;          // of telemetry: the bus took them too slowly
+    long references_refused = 0; // frames of the last move that did not continue the ones before
 };
 
 class SimulatedNode {
@@ -75,7 +77,8 @@ class SimulatedNode {
     std::int32_t torque_ = 0, base_ = 0; // counts that the reference is added to before any run
     std::int32_t counts_before_ = 0;     // a turn ago
     std::uint32_t last_run_ = 0;
-    bool due_ = false; // a SYNC has come
+    bool due_ = false;  // a SYNC has come
+    bool held_ = false; // as of the last period
     std::chrono::steady_clock::time_point next_{};
     NodeReport report_;
 };

@@ -207,8 +207,8 @@ TEST(Node, ADriveWhoseMasterDiesComesToRest) {
     NodeOptions options;
     options.master_timeout_ms = 150;
     SimulatedNode node(system1(), options, *drive_end);
-    std::atomic<bool> stop{false};
-    std::jthread thread([&](std::stop_token) { node.run([&] { return stop.load(); }); });
+    std::jthread thread(
+        [&](std::stop_token stop) { node.run([&] { return stop.stop_requested(); }); });
     const auto end = wire.end();
     Link link(*end, {});
     link.write(0x2A01, 1, 7, 4);        // claim
@@ -219,7 +219,7 @@ TEST(Node, ADriveWhoseMasterDiesComesToRest) {
     link.pump(std::chrono::milliseconds(100));
     EXPECT_EQ(link.read(0x2A02, 1), std::uint32_t(SID_STATE_MEASURING));
     std::this_thread::sleep_for(std::chrono::milliseconds(200)); // dead
-    stop = true;
+    thread.request_stop();
     thread.join();
     const NodeReport report = node.report();
     EXPECT_EQ(report.reason, SID_MASTER_LOST);

@@ -30,9 +30,9 @@ Frame parse_frame(const std::string& line) {
 
 void decode(const DbcMessage& message, const Frame& frame, long number) {
     Frame again;
-    for (const auto& [field, unit, multiplexed, multiplexor, minimum, maximum, line] :
-         message.signals) {
-        if (multiplexed) continue;
+    for (const DbcSignal& signal : message.signals) {
+        if (signal.multiplexed) continue;
+        const Field& field = signal.field;
         const std::int64_t raw = raw_of(field, frame);
         put_raw(field, raw, again);
         std::printf("%ld %s ", number, field.name.c_str());
