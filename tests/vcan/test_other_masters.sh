@@ -11,7 +11,7 @@ bad_cable --at 200 "touch running"
 drive system1 vcan1
 "$servoid" command --can vcan0 --json move "$the_move",cycles=8 --log first.log >first.json 2>first.err &
 first=$!
-until [ -e running ]; do sleep 0.01; done
+for ((tries = 0; tries < 500; tries++)); do [ ! -e running ] || break; sleep 0.01; done
 command_ second identify --amplitude 0.5
 [ $status -eq 5 ] || fail "a second master: exit $status"
 said second.err "node 1 belongs to another master, or runs"
