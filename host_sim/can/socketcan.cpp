@@ -121,7 +121,8 @@ void SocketCan::send(const Frame& frame) {
         if (!is_no_room(error)) refuse_sending(interface_, frame, error);
         if (error == ENETDOWN) note_down();
         refuse_lasting_trouble();
-        if (error == ENETDOWN || Clock::now() >= until) {
+        // An error from a pause that is over may still be pending: then it is tried again.
+        if (down_since_ || Clock::now() >= until) {
             ++health_.not_sent;
             return;
         }

@@ -1,18 +1,14 @@
 // servoid command: the other end of a drive on the bus. Runs sessions and moves on it, and keeps
 // what it tells.
-#include "can/candump.hpp"
-#include "can/socketcan.hpp"
 #include "cli/app.hpp"
 #include "cli/bus_output.hpp"
-#include "cli/end_on_signal.hpp"
+#include "cli/bus_session.hpp"
 #include "cli/identify_output.hpp"
 #include "common/error.hpp"
-#include "common/file.hpp"
 #include "diagnose/diagnose.hpp"
 #include "node/master.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -29,7 +25,7 @@ struct Options {
     Output output;
     LinkOptions link;
     Limits limits;
-    std::string interface, out, log;
+    SessionFiles files;
     // identify
     std::vector<double> frequencies{50};
     double amplitude = 0;
@@ -39,14 +35,6 @@ struct Options {
     CaptureOptions captures;
 };
 
-can::SocketCanOptions what_it_hears(const LinkOptions& link) {
-    can::SocketCanOptions out;
-    out.listen_to = {can::telemetry_id(link.node),  can::answer_id(link.node),
-                     can::heartbeat_id(link.node),  can::request_id(link.node),
-                     can::references_id(link.node), can::heartbeat_id(link.master)};
-    return out;
-}
-
 OnProgress on_terminal(const Output& output) {
     if (output.quiet || !isatty(STDERR_FILENO)) return {};
     return [](const RunProgress& p) {
@@ -55,129 +43,13 @@ OnProgress on_terminal(const Output& output) {
     };
 }
 
-// The bus, the link and what they went through, told in the same words by every run.
-struct Session {
-    explicit Session(const Options& o)
-        : bus(o.interface, what_it_hears(o.link)), link(bus, wired(o)) {}
-    LinkOptions wired(const Options& o) {
-        LinkOptions out = o.link;
-        out.cancelled = [] { return EndOnSignal::wanted().load(); };
-        if (!o.log.empty())
-            out.heard = [this, name = o.interface](const can::Frame& frame) {
-                log += can::format_candump(frame, name) + "\n";
-            };
-        return out;
-    }
-    std::string log;
-    EndOnSignal signals;
-    can::SocketCan bus;
-    Link link;
-    DriveCounts drive;
-};
-
-Json link_json(const Session& s) {
-    const LinkReport& r = s.link.report();
-    const can::BusHealth& h = s.bus.health();
-    return {{"requests", r.requests},
-            {"repeated_requests", r.repeated_requests},
-            {"repeated_syncs", r.repeated_syncs},
-            {"stray_answers", r.stray_answers},
-            {"foreign_requests", r.foreign_requests},
-            {"foreign_changes", r.foreign_changes},
-            {"references_refused", s.drive.references_refused},
-            {"telemetry_rows_lost", s.drive.rows_lost},
-            {"error_frames", h.error_frames},
-            {"bus_off", h.bus_off},
-            {"interface_down", h.interface_down},
-            {"dropped", h.dropped},
-            {"not_sent", h.not_sent}};
-}
-
-std::vector<std::string> with(const std::string& first, std::vector<std::string> rest) {
-    rest.insert(rest.begin(), first);
-    return rest;
-}
-
-// What went wrong on the way, and what was done about it; nothing on a good bus.
-std::vector<std::string> troubles(const Session& s) {
-    std::vector<std::string> out;
-    const LinkReport& r = s.link.report();
-    const can::BusHealth& h = s.bus.health();
-    const auto tell = [&](long times, const std::string& text) {
-        if (times > 0) out.push_back(text);
-    };
-    tell(r.repeated_requests + r.repeated_syncs,
-         fmt::format("{} of {} requests and {} SYNC were sent again", r.repeated_requests,
-                     r.requests, r.repeated_syncs));
-    tell(r.foreign_requests,
-         fmt::format("another master talks to this node: {} frames, {} of them with effect",
-                     r.foreign_requests, r.foreign_changes));
-    tell(s.drive.references_refused,
-         fmt::format("{} frames of references came after a lost one, and were sent again",
-                     s.drive.references_refused));
-    tell(s.drive.rows_lost,
-         fmt::format("{} rows of telemetry found no room in the drive", s.drive.rows_lost));
-    tell(h.bus_off, fmt::format("bus off {} times", h.bus_off));
-    tell(h.interface_down, fmt::format("the interface was down {} times", h.interface_down));
-    tell(h.dropped, fmt::format("{} frames found no room here", h.dropped));
-    tell(h.not_sent, fmt::format("{} frames could not be sent", h.not_sent));
-    tell(s.link.telemetry().resets(),
-         fmt::format("the drive was reset {} times", s.link.telemetry().resets()));
-    return out;
-}
-
-void print_link(const Output& out, const Session& s) {
-    for (const std::string& text : troubles(s))
-        out.line(text);
-}
-
-// Telemetry as captures; nothing where too little came.
-std::optional<can::BusCaptures> heard(const Session& s, const Options& o) {
-    try {
-        can::BusCaptures out = s.link.telemetry().captures(o.interface);
-        out.report.dropped = s.bus.health().dropped;
-        out.report.interface_down = s.bus.health().interface_down;
-        return out;
-    } catch (const Error& e) {
-        o.output.note(std::string("no capture: ") + e.what());
-        return std::nullopt;
-    }
-}
-
-// The longest stretch goes into the file, everything into the log.
-void keep(const std::optional<can::BusCaptures>& all, const Session& s, const Options& o) {
-    if (!o.log.empty()) write_file(o.log, s.log);
-    if (!all) return;
-    print_bus(o.output, *all, true);
-    if (o.out.empty()) return;
-    const Capture& capture = longest(all->captures);
-    write_file(o.out, format_capture_csv(capture));
-    const std::size_t stretches = all->captures.size();
-    o.output.line(fmt::format("wrote {}: {} samples{}", o.out, capture.rows(),
-                              stretches == 1 ? ""
-                                             : fmt::format(", the longest of {} stretches without "
-                                                           "a lost sample",
-                                                           stretches)));
-}
-
-// However a run ends, what was recorded until then is kept; and a fault says what else was seen.
-template <class Work> auto run_on(Session& s, const Options& o, const Work& work) {
-    try {
-        return work();
-    } catch (const can::BusError& e) {
-        keep(heard(s, o), s, o);
-        throw can::BusError(fmt::format("{}", fmt::join(with(e.what(), troubles(s)), "; ")));
-    }
-}
-
 // After the capture is safe: a fault of the drive or the bus is exit 5, data that cannot answer 4.
-void refuse_if_not_whole(const RunEnd& end, const Session& s) {
-    const auto all = [&](const std::string& first) {
-        return fmt::format("{}", fmt::join(with(first, troubles(s)), "; "));
-    };
-    if (!end.fault.empty()) throw can::BusError(all("the drive ended the run: " + end.fault));
-    if (s.link.report().foreign_changes > 0)
-        throw can::BusError(all("not what was asked for: another master has changed the drive"));
+void refuse_if_not_whole(const RunEnd& end, const BusSession& s) {
+    if (!end.fault.empty())
+        throw can::BusError(s.with_troubles("the drive ended the run: " + end.fault));
+    if (s.report().foreign_changes > 0)
+        throw can::BusError(
+            s.with_troubles("not what was asked for: another master has changed the drive"));
 }
 
 void refuse_if_no_answer(const std::vector<SessionResult>& results) {
@@ -235,8 +107,8 @@ struct Answer {
     bool linear = false;
 };
 
-Answer measured(Session& s, const Options& o) {
-    Master master(s.link);
+Answer measured(BusSession& s, const Options& o) {
+    Master master(s.link());
     std::vector<PlannedSine> plan;
     for (double f : o.frequencies)
         plan.push_back({f, o.amplitude});
@@ -247,15 +119,15 @@ Answer measured(Session& s, const Options& o) {
     if (out.end.fault.empty() || is_refusal(out.end.status.reason))
         out.results = master.results(plan);
     master.finish();
-    s.drive = master.counts();
+    s.set_drive_counts(master.counts());
     return out;
 }
 
 void run_identify(const Options& o) {
-    Session s(o);
-    const Answer answer = run_on(s, o, [&] { return measured(s, o); });
-    const auto all = heard(s, o);
-    keep(all, s, o);
+    BusSession s(o.files, o.link, o.output);
+    const Answer answer = s.run([&] { return measured(s, o); });
+    const auto all = s.heard();
+    s.keep(all);
     if (is_refusal(answer.end.status.reason)) refuse_if_no_answer(answer.results);
     refuse_if_not_whole(answer.end, s);
     refuse_if_no_answer(answer.results);
@@ -265,22 +137,22 @@ void run_identify(const Options& o) {
     const Capture& capture = all ? longest(all->captures) : none;
     Json json = identification_json(own, capture);
     if (all) json["bus"] = bus_json(all->report);
-    json["link"] = link_json(s);
+    json["link"] = s.json();
     o.output.print_json(json);
     print_identification(o.output, own, capture);
-    print_link(o.output, s);
+    s.print_troubles();
 }
 
 Json move_json(const Options& o, const RunEnd& end, const std::optional<can::BusCaptures>& all,
-               const Session& s) {
+               const BusSession& s) {
     Json json = {{"schema", "servoid.move/1"},
                  {"experiment", o.experiment},
                  {"status", end.fault.empty() ? "ok" : end.fault},
-                 {"out", o.out.empty() ? Json(nullptr) : Json(o.out)},
+                 {"out", o.files.out.empty() ? Json(nullptr) : Json(o.files.out)},
                  {"samples", all ? longest(all->captures).rows() : 0},
                  {"stretches", all ? all->captures.size() : 0}};
     if (all) json["bus"] = bus_json(all->report);
-    json["link"] = link_json(s);
+    json["link"] = s.json();
     return json;
 }
 
@@ -303,30 +175,30 @@ Experiment approach(const Experiment& experiment, double from, double to) {
     return out;
 }
 
-RunEnd moved(Session& s, const Options& o, const Experiment& experiment) {
-    Master master(s.link);
+RunEnd moved(BusSession& s, const Options& o, const Experiment& experiment) {
+    Master master(s.link());
     master.set_limits(o.limits);
     const double stands = master.position();
     RunEnd end;
     if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
         o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
         end = master.move(approach(experiment, stands, experiment.start), on_terminal(o.output));
-        s.link.wait(0.5);
+        s.link().wait(0.5);
     }
     if (end.fault.empty()) end = master.move(experiment, on_terminal(o.output));
     master.finish();
-    s.drive = master.counts();
+    s.set_drive_counts(master.counts());
     return end;
 }
 
 void run_move(const Options& o) {
     const Experiment experiment = parse_experiment(o.experiment);
-    Session s(o);
-    const RunEnd end = run_on(s, o, [&] { return moved(s, o, experiment); });
-    const auto all = heard(s, o);
-    keep(all, s, o);
+    BusSession s(o.files, o.link, o.output);
+    const RunEnd end = s.run([&] { return moved(s, o, experiment); });
+    const auto all = s.heard();
+    s.keep(all);
     o.output.print_json(move_json(o, end, all, s));
-    print_link(o.output, s);
+    s.print_troubles();
     refuse_if_not_whole(end, s);
 }
 
@@ -346,11 +218,11 @@ void run_next(Options o) {
 }
 
 void run_status(const Options& o) {
-    Session s(o);
-    const auto read = [&](std::uint8_t sub) { return s.link.read(0x2A02, sub); };
+    BusSession s(o.files, o.link, o.output);
+    const auto read = [&](std::uint8_t sub) { return s.link().read(0x2A02, sub); };
     const auto reason = sid_reason_t(read(2));
     static const char* const names[] = {"idle", "measuring", "stopping", "done", "aborted"};
-    const std::uint32_t state = read(1), owner = s.link.read(0x2A01, 1);
+    const std::uint32_t state = read(1), owner = s.link().read(0x2A01, 1);
     const std::string name = state < std::size(names) ? names[state] : "unknown";
     o.output.print_json({{"schema", "servoid.status/1"},
                          {"node", o.link.node},
@@ -364,14 +236,14 @@ void run_status(const Options& o) {
 }
 
 void run_abort(const Options& o) {
-    Session s(o);
-    s.link.write(0x2A01, 5, 1, 1);
+    BusSession s(o.files, o.link, o.output);
+    s.link().write(0x2A01, 5, 1, 1);
     o.output.print_json({{"schema", "servoid.abort/1"}, {"node", o.link.node}});
     o.output.line(fmt::format("node {}: its axis is held", o.link.node));
 }
 
 void add_link_options(const Verb& verb, Options& o) {
-    verb.add_option("--can", o.interface, "interface: can0, vcan0").required();
+    verb.add_option("--can", o.files.interface, "interface: can0, vcan0").required();
     verb.add_option("--node", o.link.node, "number of the drive (default 1)").between(1, 127);
     verb.add_option("--master", o.link.master, "number of this master (default 127)")
         .between(1, 127);
@@ -389,8 +261,8 @@ void add_link_options(const Verb& verb, Options& o) {
 }
 
 void add_out(const Verb& run, Options& o) {
-    run.add_option("--out", o.out, "write what was recorded as .csv: the longest stretch");
-    run.add_option("--log", o.log, "write all that was heard as a candump log");
+    run.add_option("--out", o.files.out, "write what was recorded as .csv: the longest stretch");
+    run.add_option("--log", o.files.log, "write all that was heard as a candump log");
 }
 
 void add_identify_run(const Verb& verb, const std::shared_ptr<Options>& o) {

@@ -54,7 +54,7 @@ bad_cable() {
 }
 cable_ends() { kill -TERM "$bridge" && wait "$bridge" || fail "the cable: $(cat cable.err)"; }
 
-# command NAME ARGUMENTS...: into NAME.json, NAME.err; its exit code in $status. 15 s are too long.
+# command_ NAME ARGUMENTS...: into NAME.json, NAME.err; its exit code in $status. 15 s are too long.
 command_() {
     local name=$1
     shift

@@ -5,7 +5,7 @@ seconds=${LIVE_SECONDS:-60}
 
 drive_for=$((seconds + 60)) drive system1 vcan0
 status=0
-timeout -k 1 $((seconds + 15)) "$servoid" command --can vcan0 --json \
+timeout -k 1 $((seconds + 15)) "$servoid" command --can vcan0 --json --timeout 5000 \
     move constant_speed:velocity=5,duration=$seconds --out live.csv >live.json 2>live.err || status=$?
 [ $status -eq 0 ] || fail "exit $status: $(cat live.err)"
 drive_ends
