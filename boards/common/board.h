@@ -15,7 +15,8 @@ void board_print_int(int64_t value);
 /// Ends the program with this exit code, 0..255.
 void board_exit(int status);
 
-/// From here on board_timer_interrupt comes rate_Hz times a second.
+/// From here on board_timer_interrupt comes rate_Hz times a second, once board_interrupt_on() was
+/// called.
 void board_timer_start(uint32_t rate_Hz);
 /// By the program; empty where it has none.
 void board_timer_interrupt(void);
@@ -25,13 +26,11 @@ void board_wait(void);
 void board_interrupt_off(void);
 void board_interrupt_on(void);
 
-#if defined(__arm__)
-/// Ticks of the timer that have passed since its start, modulo the period; 40 ns each at 25 MHz.
-/// Cortex-M only, for measuring.
+/// Ticks of BOARD_CLOCK_HZ since the timer was started or its period began, for measuring. Not on a
+/// PC.
 uint32_t board_timer_ticks(void);
-/// A period has ended since the last call. Cortex-M only: for who has the interrupt off.
+/// A period has ended since the last call: for who has the interrupt off. Cortex-M only.
 int board_timer_expired(void);
-#endif
 
 extern uint32_t board_stack_low[];
 extern uint32_t board_stack_high[];

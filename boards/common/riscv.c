@@ -74,8 +74,9 @@ void board_timer_start(uint32_t rate_Hz) {
     due = now() + period;
     arm_timer();
     CSR_SET(mie, MIE_MACHINE_TIMER);
-    board_interrupt_on();
 }
+
+uint32_t board_timer_ticks(void) { return (uint32_t)(now() - (due - period)); }
 
 void board_wait(void) { __asm__ volatile("wfi" ::: "memory"); }
 void board_interrupt_off(void) { CSR_CLEAR(mstatus, MSTATUS_INTERRUPTS); }
