@@ -12,13 +12,13 @@ void sid_hal_read(sid_sample_t* sample) {
     if (drive.fault != 0) {
         drive.fault(sample, drive.samples);
     }
+    drive.seen_count += sid_unwrap((uint32_t)drive.seen_count, sample->position_raw, 32 - 17);
 }
 
-// The drive's own loop, which sees the axis as it is.
 void sid_hal_write_reference(int32_t reference_q8) {
     drive.reference_q8 = reference_q8;
-    drive.torque_pu_q20 =
-        sid_loop_step(&drive.loop, reference_q8, drive.position_count - drive.start_count);
+    const int32_t count = drive.is_one_encoder ? drive.seen_count : drive.position_count;
+    drive.torque_pu_q20 = sid_loop_step(&drive.loop, reference_q8, count - drive.start_count);
 }
 
 uint64_t sid_hal_sample_rate_uHz(void) { return DRIVE_RATE_HZ * (uint64_t)1000000; }

@@ -28,6 +28,8 @@ typedef struct {
     volatile int32_t torque_pu_q20;  ///< of the last interrupt
     volatile int32_t reference_q8;   ///< of the last interrupt
     volatile int32_t position_count; ///< where the axis stands
+    bool is_one_encoder;             ///< the loop sees what the session sees, faults and all
+    int32_t seen_count;              ///< that, unwrapped
     uint32_t moved;                  ///< samples that the axis has moved
     /// What is wrong with this HAL: changes what sid_hal_read read. 0: nothing is.
     void (*fault)(sid_sample_t* sample, uint32_t index);

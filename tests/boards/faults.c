@@ -70,37 +70,49 @@ typedef struct {
     int32_t stroke_limit;
     int32_t torque_limit;
     int32_t saturation;
+    uint32_t stuck_limit;
     sid_reason_t reason;
+    bool is_one_encoder;   ///< the drive's loop has the session's
     int32_t residual_from; ///< of position, 1/256 count
     int32_t residual_to;
 } case_t;
 
+// Four times rated torque for a sample: some 30 samples of what this axis takes at 50 Hz. The
+// default is ten times as much, and may come only after the leg.
+#define STUCK_LIMIT (4U << 20)
+
 #define ANY 0, INT32_MAX
 static const case_t cases[] = {
-    {"nothing", 0, 0, 0, 0, 0, SID_OK, 900, 1200},
-    {"stuck encoder", stuck_encoder, 0, 0, 0, 0, SID_ENCODER_STUCK, ANY},
-    {"jump", jump, 0, 0, 0, 0, SID_ENCODER_JUMP, ANY},
-    {"noise for an encoder", encoder_noise, 0, 0, 0, 0, SID_ENCODER_JUMP, ANY},
-    {"saturated torque", saturated_torque, 0, 0, 0, 100000, SID_SATURATED, ANY},
-    {"torque spike", torque_spike, 0, 0, 1 << 20, 0, SID_ABORTED_TORQUE, ANY},
-    {"stroke", 0, 0, 2000, 0, 0, SID_ABORTED_STROKE, ANY},
-    {"encoder reversed", reversed_encoder, 0, 0, 0, 0, SID_NEGATIVE_INERTIA, ANY},
-    {"torque is not read", torque_is_not_read, 0, 0, 0, 0, SID_NO_EXCITATION, ANY},
-    {"1 interrupt missed", 0, one_missed, 0, 0, 0, SID_OK, 2000, 4000},
-    {"40 interrupts missed", 0, many_missed, 0, 0, 0, SID_ENCODER_JUMP, ANY},
-    {"40 missed at a turn", 0, many_missed_at_a_turn, 0, 0, 0, SID_OK, 30000, INT32_MAX}};
+    {"nothing", 0, 0, 0, 0, 0, 0, SID_OK, false, 900, 1200},
+    {"stuck encoder", stuck_encoder, 0, 0, 0, 0, STUCK_LIMIT, SID_ENCODER_STUCK, false, ANY},
+    {"stuck encoder, default limit", stuck_encoder, 0, 0, 0, 0, 0, SID_ENCODER_STUCK, false, ANY},
+    {"stuck encoder of the loop too", stuck_encoder, 0, 0, 0, 0, STUCK_LIMIT, SID_ENCODER_STUCK,
+     true, ANY},
+    {"jump", jump, 0, 0, 0, 0, 0, SID_ENCODER_JUMP, false, ANY},
+    {"noise for an encoder", encoder_noise, 0, 0, 0, 0, 0, SID_ENCODER_JUMP, false, ANY},
+    {"saturated torque", saturated_torque, 0, 0, 0, 100000, 0, SID_SATURATED, false, ANY},
+    {"torque spike", torque_spike, 0, 0, 1 << 20, 0, 0, SID_ABORTED_TORQUE, false, ANY},
+    {"stroke", 0, 0, 2000, 0, 0, 0, SID_ABORTED_STROKE, false, ANY},
+    {"encoder reversed", reversed_encoder, 0, 0, 0, 0, 0, SID_NEGATIVE_INERTIA, false, ANY},
+    {"torque is not read", torque_is_not_read, 0, 0, 0, 0, 0, SID_NO_EXCITATION, false, ANY},
+    {"1 interrupt missed", 0, one_missed, 0, 0, 0, 0, SID_OK, false, 2000, 4000},
+    {"40 interrupts missed", 0, many_missed, 0, 0, 0, 0, SID_ENCODER_JUMP, false, ANY},
+    {"40 missed at a turn", 0, many_missed_at_a_turn, 0, 0, 0, 0, SID_OK, false, 30000, INT32_MAX}};
 
 static void set_up(const case_t* c) {
     drive_power_up();
     drive.fault = c->fault;
     drive.stall = c->stall;
+    drive.is_one_encoder = c->is_one_encoder;
     drive.config.stroke_limit_count = c->stroke_limit;
     drive.config.torque_limit_pu_q20 = c->torque_limit;
     drive.config.torque_saturation_pu_q20 = c->saturation;
+    drive.config.stuck_limit_pu_q20 = c->stuck_limit;
     drive.config.step_limit_count = 2000;
 }
 
-// The reference does not move, nor does the axis by as much as a count a sample.
+// The reference does not move, nor does the axis by more than a count a sample; except where the
+// loop does not see it.
 static bool is_at_rest(void) {
     const int32_t reference_q8 = drive.reference_q8;
     bool rests = true;
@@ -109,7 +121,7 @@ static bool is_at_rest(void) {
         (void)drive_main_loop();
         const int32_t moved = drive.position_count - before;
         rests = rests && (drive.reference_q8 == reference_q8);
-        rests = rests && ((i < 1000U) || ((moved <= 1) && (moved >= -1)));
+        rests = rests && ((i < 1000U) || drive.is_one_encoder || ((moved <= 1) && (moved >= -1)));
     }
     return rests;
 }
@@ -152,6 +164,8 @@ static bool run(const case_t* c) {
     say(" samples, J ", drive_inertia_e12(result));
     say("e-12 kg m^2, residual ", residual);
     say("/256 counts, aborts ", aborts());
+    board_print(", of the first leg ");
+    board_print(sid_reason_text((sid_reason_t)result->reason));
     board_print(rests ? ", at rest" : ", NOT at rest");
     board_print(good ? "\n" : ": WRONG\n");
     return good;
