@@ -77,7 +77,7 @@ typedef struct {
     int32_t residual_to;
 } case_t;
 
-// Four times rated torque for a sample: some 30 samples of what this axis takes at 50 Hz. The
+// Four times rated torque for a sample: some 45 samples of what this axis takes at 50 Hz. The
 // default is ten times as much, and may come only after the leg.
 #define STUCK_LIMIT (4U << 20)
 
