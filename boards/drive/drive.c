@@ -2,6 +2,9 @@
 
 #include "board.h"
 
+#define ENCODER_BITS 17
+#define UNUSED_BITS (32U - ENCODER_BITS)
+
 drive_t drive;
 
 // ---------------------------------------------------------------- the five functions
@@ -12,7 +15,7 @@ void sid_hal_read(sid_sample_t* sample) {
     if (drive.fault != 0) {
         drive.fault(sample, drive.samples);
     }
-    drive.seen_count += sid_unwrap((uint32_t)drive.seen_count, sample->position_raw, 32 - 17);
+    drive.seen_count += sid_unwrap((uint32_t)drive.seen_count, sample->position_raw, UNUSED_BITS);
 }
 
 void sid_hal_write_reference(int32_t reference_q8) {
@@ -34,7 +37,12 @@ void board_timer_interrupt(void) {
         drive.late = drive.late + 1U;
     }
     sid_hal_read(&sample);
-    sid_identify_step(&drive.session, &sample, &command);
+    if (drive.node != 0) {
+        sid_node_step(drive.node, &sample, &command);
+        drive.start_count = sid_unwrap(0, drive.node->run.start_raw, UNUSED_BITS);
+    } else {
+        sid_identify_step(&drive.session, &sample, &command);
+    }
     sid_hal_write_reference(command.reference_q8);
     drive.samples = drive.samples + 1U;
 }
@@ -90,7 +98,7 @@ void drive_power_up(void) {
     drive.config.results = drive.results;
     drive.config.plan_length = DRIVE_PLAN;
     drive.config.windows = 2;
-    drive.config.position_bits = 17;
+    drive.config.position_bits = ENCODER_BITS;
     drive.config.ramp_periods_q8 = 256;
     drive.config.torque_timing = SID_TORQUE_HELD_LAST;
     set_up_loop();

@@ -17,6 +17,7 @@
 
 typedef struct {
     sid_identify_t session;
+    sid_node_t* node; ///< 0, or what is stepped in place of the session
     sid_identify_config_t config;
     sid_frequency_t plan[DRIVE_PLAN];
     sid_result_t results[DRIVE_PLAN];
