@@ -1,6 +1,7 @@
 // A drive on a bus, commanded by a master in the same program: the node is stepped by the timer
 // interrupt and polled all the time in between. A session finds the inertia while every sample goes
-// out as telemetry; a second one, whose master falls silent, is held by the interrupt itself.
+// out as telemetry; a second one, whose master falls silent while the main loop hangs, is held
+// by the interrupt itself.
 #include "board.h"
 #include "drive.h"
 
@@ -11,6 +12,7 @@
 #define TIMEOUT_MS 100U
 #define MOST_SAMPLES 20000U
 #define HEARTBEATS 400U // samples after which the master falls silent
+#define DEAD 1500U      // samples for which the main loop does
 
 static sid_node_t node;
 static sid_node_config_t config;
@@ -81,12 +83,16 @@ static void serve_bus(void) {
     is_in_poll = 0;
 }
 
-// Until the run has ended; the master speaks in its first samples only, or all the time.
+// Until the run has ended. The master speaks in the first samples only, and with it the main loop
+// stops for longer than the master may be silent: nobody but the interrupt can hold the axis.
 static void run_out(uint32_t heartbeats) {
     const uint32_t begun = drive.samples;
     while (sid_node_is_running(&node) && (drive.samples - begun < MOST_SAMPLES)) {
         while (drive.samples == drive.moved) {
-            serve_bus();
+            if ((drive.samples - begun <= heartbeats) ||
+                (drive.samples - begun > heartbeats + DEAD)) {
+                serve_bus();
+            }
         }
         drive_move_axis();
         drive.moved++;
