@@ -184,6 +184,7 @@ RunEnd moved(BusSession& s, const Options& o, const Experiment& experiment) {
         o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
         end = master.move(approach(experiment, stands, experiment.start), on_terminal(o.output));
         s.link().wait(0.5);
+        if (end.fault.empty()) s.link().forget_telemetry();
     }
     if (end.fault.empty()) end = master.move(experiment, on_terminal(o.output));
     master.finish();

@@ -38,8 +38,8 @@ can::SocketCanOptions what_it_hears(const NodeOptions& node) {
     out.send_wait = std::chrono::milliseconds(2); // the control goes on, whatever the bus takes
     out.listen_to = {
         {0x000, false}, {0x080, false}, can::request_id(node.node), can::references_id(node.node)};
-    for (int master = 1; master < 128; ++master) // the master may choose its number
-        if (master != node.node) out.listen_to.push_back(can::heartbeat_id(master));
+    for (int any = 1; any < 128; ++any) // the master may choose its number; and a twin is heard
+        out.listen_to.push_back(can::heartbeat_id(any));
     return out;
 }
 

@@ -62,7 +62,8 @@ class Link {
     void send(const can::Frame& frame) { bus_.send(frame); }
 
     const can::TelemetryTable& telemetry() const { return table_; }
-    can::TelemetryTable& telemetry() { return table_; }
+    // What came until now is of no interest any more.
+    void forget_telemetry() { table_ = can::TelemetryTable(options_.node); }
     // The node has booted, or its time has begun anew, since the last call.
     bool was_reset();
     // The newest telemetry says that nothing runs. A hint: it may be from before a start.

@@ -4,6 +4,8 @@
 #include "common/scaled.hpp"
 #include "node/core_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -164,7 +166,21 @@ void SimulatedNode::answer_sync() {
     bus_.send(done);
 }
 
+// Two drives of one number would both answer. One that beats is heard before we say anything.
+void SimulatedNode::refuse_if_taken() {
+    if (options_.free_running) return;
+    const auto until =
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(options_.heartbeat_ms * 5 / 2);
+    can::Frame frame;
+    for (auto now = until; (now = std::chrono::steady_clock::now()) < until;)
+        if (bus_.receive(frame, until - now) && id_of(frame) == can::heartbeat_id(options_.node))
+            throw can::BusError(
+                fmt::format("there is a node {} on this bus already (--node)", options_.node));
+    next_ = std::chrono::steady_clock::now();
+}
+
 void SimulatedNode::run(const std::function<bool()>& stop) try {
+    refuse_if_taken();
     while (!stop()) {
         if (options_.free_running) {
             answer_sync();

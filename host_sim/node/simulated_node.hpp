@@ -45,8 +45,9 @@ class SimulatedNode {
     SimulatedNode(const SimulatedNode&) = delete;
     SimulatedNode& operator=(const SimulatedNode&) = delete;
 
-    // Until `stop` says so; it is asked once a turn. Throws BusError where the bus is gone: by then
-    // the axis has been held and has come to rest.
+    // Until `stop` says so; it is asked once a turn. Throws BusError where another drive of this
+    // number is heard in the beginning, and where the bus is gone: by then the axis has been held
+    // and has come to rest.
     void run(const std::function<bool()>& stop);
     // kPeriodsPerTurn and what is then to be sent, without a clock.
     void turn();
@@ -61,6 +62,7 @@ class SimulatedNode {
     void advance(int periods);
     void interrupt();
     void send_all();
+    void refuse_if_taken();
     void come_to_rest();
     void wait_for_turn();
 
