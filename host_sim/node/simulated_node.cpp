@@ -39,6 +39,7 @@ SimulatedNode::SimulatedNode(const Model& model, const NodeOptions& options, can
     : options_(options), bus_(bus), drive_(model, options.drive),
       linear_(model.motion == Motion::linear), plan_(kPlan), results_(kPlan), rows_(kRows),
       references_(kReferences) {
+    refuse_if_taken();
     configure(model);
     power_up();
     next_ = std::chrono::steady_clock::now();
@@ -176,11 +177,9 @@ void SimulatedNode::refuse_if_taken() {
         if (bus_.receive(frame, until - now) && id_of(frame) == can::heartbeat_id(options_.node))
             throw can::BusError(
                 fmt::format("there is a node {} on this bus already (--node)", options_.node));
-    next_ = std::chrono::steady_clock::now();
 }
 
 void SimulatedNode::run(const std::function<bool()>& stop) try {
-    refuse_if_taken();
     while (!stop()) {
         if (options_.free_running) {
             answer_sync();

@@ -40,14 +40,14 @@ struct NodeReport {
 
 class SimulatedNode {
   public:
-    // Throws UsageError: a model without a controller, a stroke that the core cannot count.
+    // Listens for two heartbeats first. Throws UsageError (a model without a controller, a stroke
+    // that the core cannot count) and BusError (another drive of this number on the bus).
     SimulatedNode(const Model& model, const NodeOptions& options, can::Bus& bus);
     SimulatedNode(const SimulatedNode&) = delete;
     SimulatedNode& operator=(const SimulatedNode&) = delete;
 
-    // Until `stop` says so; it is asked once a turn. Throws BusError where another drive of this
-    // number is heard in the beginning, and where the bus is gone: by then the axis has been held
-    // and has come to rest.
+    // Until `stop` says so; it is asked once a turn. Throws BusError where the bus is gone: by then
+    // the axis has been held and has come to rest.
     void run(const std::function<bool()>& stop);
     // kPeriodsPerTurn and what is then to be sent, without a clock.
     void turn();

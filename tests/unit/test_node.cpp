@@ -229,4 +229,16 @@ TEST(Node, ADriveWhoseMasterDiesComesToRest) {
     EXPECT_LT(std::fabs(report.speed), 1e-3);
 }
 
+TEST(Node, TwoDrivesOfOneNumberAreRefused) {
+    can::MemoryBus wire;
+    const auto first_end = wire.end(), second_end = wire.end();
+    SimulatedNode first(system1(), {}, *first_end);
+    std::jthread thread(
+        [&](std::stop_token stop) { first.run([&] { return stop.stop_requested(); }); });
+    NodeOptions other;
+    other.node = 2;
+    EXPECT_NO_THROW(SimulatedNode(system1(), other, *second_end));
+    EXPECT_THROW(SimulatedNode(system1(), {}, *second_end), can::BusError);
+}
+
 } // namespace servoid
