@@ -249,6 +249,8 @@ void Master::set_plan(const std::vector<PlannedSine>& plan, const SessionOptions
     link_.write(kOptions, 3, q8(options.ramp_periods), 2);
     link_.write(kOptions, 4, q8(options.settle_periods), 2);
     link_.write(kOptions, 5, q8(options.window_periods), 2);
+    link_.write(kOptions, 6, 0, 2); // gap and rest: the core's own, whatever an earlier master said
+    link_.write(kOptions, 7, 0, 4);
     link_.write(kOptions, 8, std::uint32_t(options.method), 1);
     link_.write(kCommand, 2, 1, 1);
 }
