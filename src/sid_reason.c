@@ -6,9 +6,10 @@ const char* sid_reason_text(sid_reason_t reason) {
                                                        "no excitation",    "torque saturated",
                                                        "window too short", "stroke clipped",
                                                        "overflow",         "ill-conditioned",
-                                                       "negative inertia", "aborted: stroke",
-                                                       "aborted: torque",  "aborted by user",
-                                                       "encoder stuck",    "encoder jump",
-                                                       "master lost",      "reference starved"};
+                                                       "negative inertia", "not a sine",
+                                                       "aborted: stroke",  "aborted: torque",
+                                                       "aborted by user",  "encoder stuck",
+                                                       "encoder jump",     "master lost",
+                                                       "reference starved"};
     return ((unsigned)reason < (unsigned)SID_REASON_COUNT) ? text[reason] : "unknown";
 }

@@ -43,9 +43,10 @@ NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMoti
 // All captures together: powers add up. Those after the first may have their own position zero.
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions);
 
-// prepare_motion for each capture.
+// prepare_motion for each capture; they must outlive what is made of them.
 std::vector<PreparedMotion> prepare_all(std::span<const Capture> captures,
                                         const MotionOptions& options);
+std::vector<PreparedMotion> prepare_all(std::vector<Capture>&&, const MotionOptions&) = delete;
 
 // Residual T − T̂ on the grid of one capture.
 Eigen::VectorXd residual_torque(const Model& model, const PreparedMotion& motion);

@@ -50,7 +50,7 @@ NoiseBeside noise_beside(const Capture& capture, double frequency_Hz, Input inpu
     const double length_s = double(capture.rows()) * capture.sample_time_s;
     options.band_Hz =
         std::min(std::max(2.5 * frequency_Hz, 25 / length_s), 0.11 / capture.sample_time_s);
-    const std::vector<PreparedMotion> motions = prepare_all({&capture, &capture + 1}, options);
+    const std::vector<PreparedMotion> motions = prepare_all(std::span(&capture, 1), options);
     const FitResult fitted = fit(rigid_axis_with_friction(), motions);
     const Eigen::VectorXd residual = residual_torque(fitted.model, motions.front());
     NoiseBeside out;

@@ -67,7 +67,7 @@ std::vector<std::int32_t> references_of(const Experiment& e, const DriveScales& 
 } // namespace
 
 bool is_refusal(sid_reason_t reason) {
-    return reason >= SID_NO_EXCITATION && reason <= SID_NEGATIVE_INERTIA;
+    return reason >= SID_NO_EXCITATION && reason <= SID_NOT_A_SINE;
 }
 
 Master::Master(Link& link) : link_(link), token_(token()), run_(token()) {

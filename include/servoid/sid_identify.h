@@ -50,12 +50,15 @@ typedef struct {
     uint8_t plan_length;         ///< needed: 1..255
     uint8_t windows;             ///< per frequency, 1..8 [1]
     uint8_t position_bits;       ///< of the encoder word, 1..32 [32]
-    uint8_t position_shift;      ///< 0..8: encoder bits dropped to make a session count [0]
-    uint16_t ramp_periods_q8;    ///< [0: the sine starts at once]
-    uint16_t settle_periods_q8;  ///< between ramp and first window [2048: 8 periods]
-    uint16_t window_periods_q8;  ///< [512: 2 periods]
-    uint16_t gap_periods_q8; ///< between windows: the background's time to solve [256: 1 period]
-    uint32_t rest_samples;   ///< after a leg, at rest [0]
+    /// What sine and trend may leave of a window's position, RMS, over its amplitude, a count
+    /// aside; 255: anything [21: 8 %]
+    uint8_t distortion_q8;
+    uint8_t position_shift;     ///< 0..8: encoder bits dropped to make a session count [0]
+    uint16_t ramp_periods_q8;   ///< [0: the sine starts at once]
+    uint16_t settle_periods_q8; ///< between ramp and first window [2048: 8 periods]
+    uint16_t window_periods_q8; ///< [512: 2 periods]
+    uint16_t gap_periods_q8;    ///< between windows: the background's time to solve [256: 1 period]
+    uint32_t rest_samples;      ///< after a leg, at rest [0]
     int32_t torque_limit_pu_q20;      ///< guard [2^23 - 1: 8 times rated]
     int32_t torque_saturation_pu_q20; ///< |torque| from here on counts as saturated [none]
     int32_t stroke_limit_count;       ///< guard, session counts from the start [the widest allowed]

@@ -35,6 +35,7 @@ typedef enum {
     SID_OVERFLOW,         ///< torque beyond the range of the bin
     SID_ILL_CONDITIONED,  ///< trend and sine cannot be told apart in this window
     SID_NEGATIVE_INERTIA,
+    SID_NOT_A_SINE, ///< the position is none (sid_identify.h): the axis sticks, samples are missing
     SID_ABORTED_STROKE,
     SID_ABORTED_TORQUE,
     SID_ABORTED_BY_USER,

@@ -97,7 +97,8 @@ static const case_t cases[] = {
     {"torque is not read", torque_is_not_read, 0, 0, 0, 0, 0, SID_NO_EXCITATION, false, ANY},
     {"1 interrupt missed", 0, one_missed, 0, 0, 0, 0, SID_OK, false, 2000, 4000},
     {"40 interrupts missed", 0, many_missed, 0, 0, 0, 0, SID_ENCODER_JUMP, false, ANY},
-    {"40 missed at a turn", 0, many_missed_at_a_turn, 0, 0, 0, 0, SID_OK, false, 30000, INT32_MAX}};
+    {"40 missed at a turn", 0, many_missed_at_a_turn, 0, 0, 0, 0, SID_NOT_A_SINE, false, 30000,
+     INT32_MAX}};
 
 static void set_up(const case_t* c) {
     drive_power_up();

@@ -249,6 +249,53 @@ TEST(Identify, NoExcitation) {
     EXPECT_EQ(d.results[0].inertia.mantissa, 0);
 }
 
+// The encoder freezes for the last quarter of the window; the loop goes on with what it sees.
+TEST(Identify, AnEncoderThatFreezesInTheWindowGivesNoInertia) {
+    for (const bool trusting : {false, true}) {
+        Drive d({50}, 1);
+        uint32_t frozen = 0;
+        d.fault = [&](sid_sample_t& in) {
+            if (d.step_count < 1280 + 240)
+                frozen = in.position_raw;
+            else
+                in.position_raw = frozen;
+        };
+        if (trusting) d.config.distortion_q8 = 255;
+        ASSERT_TRUE(d.begin());
+        d.run(1280 + 320);
+        d.run();
+        if (trusting) {
+            EXPECT_EQ(d.results[0].reason, SID_OK);
+            EXPECT_GT(std::fabs(d.error_percent()), 10) << "what is refused otherwise";
+        } else {
+            EXPECT_EQ(d.results[0].reason, SID_NOT_A_SINE);
+            EXPECT_EQ(d.results[0].inertia.mantissa, 0);
+        }
+    }
+}
+
+// 40 interrupts that never came, at a turn, where the jump guard sees nothing.
+TEST(Identify, MissingSamplesGiveNoInertia) {
+    Drive d({50}, 1);
+    ASSERT_TRUE(d.begin());
+    for (int k = 0; k < 40000 && d.poll() < SID_STATE_DONE; k++) {
+        if (d.step_count == 1400)
+            for (int i = 0; i < 40; i++)
+                d.axis.advance(d.torque / 1048576.0 * d.axis.rated_Nm);
+        d.sample();
+    }
+    EXPECT_EQ(d.results[0].reason, SID_NOT_A_SINE);
+}
+
+// Friction takes nearly all of the torque: the axis stands for most of each period.
+TEST(Identify, AnAxisThatSticksGivesNoInertia) {
+    Drive d({20}, 0.2);
+    d.axis.coulomb_Nm *= 3;
+    ASSERT_TRUE(d.begin());
+    d.run();
+    EXPECT_EQ(d.results[0].reason, SID_NOT_A_SINE);
+}
+
 TEST(Identify, NegativeInertiaIsNeverAnAnswer) {
     Drive d({100});
     d.fault = [](sid_sample_t& s) { s.torque_pu_q20 = -s.torque_pu_q20; };
