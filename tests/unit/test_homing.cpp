@@ -303,7 +303,8 @@ TEST(Homing, OneCaptureHasNoOffsetAndAModelOfAnotherRecordingIsNamed) {
     EXPECT_NEAR(apart(zero->offset.value, 0.31, kTurn / 6), 0, 0.01);
     EXPECT_NEAR(zero->error_before, c.torque_error, 0.02 * c.torque_error);
     EXPECT_LT(zero->error, 0.5 * zero->error_before);
-    EXPECT_FALSE(offset_against(truth, prepare_all(captures_of(truth, {0}), {}).front()));
+    const std::vector<Capture> own = captures_of(truth, {0});
+    EXPECT_FALSE(offset_against(truth, prepare_all(own, {}).front()));
 }
 
 TEST(Fit, AFixedOrderLeavesTheAmplitudeFreeAndAFixedPhaseStays) {
