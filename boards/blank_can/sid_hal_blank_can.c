@@ -88,14 +88,15 @@ static void give(bool is_new) {
     }
 }
 
+// What the node has to say comes first: its boot-up before any answer.
 static void serve_bus(void) {
     sid_can_frame_t frame;
     give(false);
-    while (!is_pending && sid_hal_can_receive(&frame)) {
-        give(sid_node_receive(&node, &frame, &pending));
-    }
     while (!is_pending && sid_node_poll(&node, 64, &pending)) {
         give(true);
+    }
+    while (!is_pending && sid_hal_can_receive(&frame)) {
+        give(sid_node_receive(&node, &frame, &pending));
     }
 }
 

@@ -80,7 +80,8 @@ void SimulatedNode::power_up() {
     base_ = drive_.counts();
     if (!sid_node_init(&node_, &config_)) throw Error(ExitCode::defect, "the node's configuration");
     last_run_ = 0;
-    interrupt(); // the timer runs before the bus is served
+    interrupt(); // the timer runs before the bus is served,
+    send_all();  // and the boot-up is said before anything is answered
 }
 
 void SimulatedNode::interrupt() {
