@@ -52,8 +52,9 @@ void print(const Output& out, const Identification& one, const Capture& capture)
                          spread(one.inertia.std), unit(Quantity::inertia)));
     out.line(fmt::format("viscous          {:.5g} {} {}", one.viscous.value,
                          spread(one.viscous.std), unit(Quantity::viscous)));
-    out.line(fmt::format("constant torque  {:.5g} {} {}", one.constant_torque.value,
-                         spread(one.constant_torque.std), unit(Quantity::torque)));
+    if (std::isfinite(one.constant_torque.value))
+        out.line(fmt::format("constant torque  {:.5g} {} {}", one.constant_torque.value,
+                             spread(one.constant_torque.std), unit(Quantity::torque)));
     out.line(fmt::format("at {:.5g} Hz: {:.4g} {} and {:.4g} {} of amplitude, periods {:.4g} to "
                          "{:.4g}",
                          one.frequency_Hz, one.position_amplitude, unit(Quantity::position),
@@ -118,8 +119,8 @@ void print_identification(const Output& out, const std::vector<Identification>& 
         print(out, one, capture);
     if (all.size() < 2) return;
     const Identification answer = combined(all);
-    out.line(fmt::format("all together     {:.5g} ± {:.2g} {}", answer.inertia.value,
-                         answer.inertia.std,
+    out.line(fmt::format("all together     {:.5g} {} {}", answer.inertia.value,
+                         spread(answer.inertia.std),
                          unit_of(Quantity::inertia, motion_of(capture), capture.torque_in_ampere)));
 }
 

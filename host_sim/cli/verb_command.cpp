@@ -78,8 +78,8 @@ std::vector<Identification> as_identifications(const std::vector<SessionResult>&
         one.inertia.value = r.inertia, one.viscous.value = r.viscous;
         one.position_amplitude = r.position_amplitude, one.torque_amplitude = r.torque_amplitude;
         if (r.std_known) one.inertia.std = r.inertia_std, one.viscous.std = r.viscous_std;
-        if (!r.std_known && i >= of_capture.size())
-            one.inertia.std = one.viscous.std = one.constant_torque.std = unknown;
+        if (!r.std_known && i >= of_capture.size()) one.inertia.std = one.viscous.std = unknown;
+        if (i >= of_capture.size()) one.constant_torque = {unknown, unknown}; // not the core's
         out.push_back(one);
     }
     return out;

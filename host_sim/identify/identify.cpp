@@ -12,7 +12,9 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace servoid {
@@ -265,12 +267,16 @@ Identification combined(const std::vector<Identification>& all) {
     if (all.size() == 1) return all.front();
     Identification out = all.front();
     const auto mean = [&](Estimate Identification::*field) {
+        const bool known = std::all_of(all.begin(), all.end(), [&](const Identification& one) {
+            return std::isfinite((one.*field).std);
+        });
         double weight = 0, sum = 0;
         for (const Identification& one : all) {
-            const double w = 1 / std::max(1e-300, std::pow((one.*field).std, 2));
+            const double w = known ? 1 / std::max(1e-300, std::pow((one.*field).std, 2)) : 1;
             weight += w, sum += w * (one.*field).value;
         }
-        return Estimate{sum / weight, 1 / std::sqrt(weight)};
+        return Estimate{sum / weight,
+                        known ? 1 / std::sqrt(weight) : std::numeric_limits<double>::quiet_NaN()};
     };
     out.inertia = mean(&Identification::inertia);
     out.viscous = mean(&Identification::viscous);

@@ -34,7 +34,8 @@ struct Identification {
 // Throws Refusal where the core gives a reason instead of an inertia, or there is no period.
 std::vector<Identification> identify(const Capture& capture, const IdentifyOptions& options);
 
-// One answer from several frequencies: means weighted with 1/std².
+// One answer from several frequencies: means weighted with 1/std²; where one of the deviations is
+// not known (NaN), plain means, and theirs is not known either.
 Identification combined(const std::vector<Identification>& all);
 
 } // namespace servoid

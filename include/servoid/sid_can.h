@@ -24,6 +24,8 @@ typedef struct {
     uint8_t data[SID_CAN_BYTES];
 } sid_can_frame_t;
 
+SID_STATIC_ASSERT(sizeof(sid_can_frame_t) == 72, frame_has_its_stated_size);
+
 static inline void sid_put_u16(uint8_t* at, uint16_t value) {
     at[0] = (uint8_t)(value & 0xFFU);
     at[1] = (uint8_t)(value >> 8);

@@ -43,6 +43,8 @@ typedef struct {
     sid_excite_t guards;
 } sid_stream_t;
 
+SID_STATIC_ASSERT(sizeof(sid_stream_t) <= 128, stream_fits_its_stated_size);
+
 bool sid_stream_init(sid_stream_t* stream, int32_t* references, uint32_t count,
                      const sid_excite_config_t* guards);
 /// Forgets the last move and waits for `total` references. Only while none runs.

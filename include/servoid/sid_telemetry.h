@@ -10,7 +10,7 @@
 ///             more than the ring, the oldest rows are lost: `lost` counts them, and the ticks of
 ///             the frames jump.
 /// Errors      sid_telemetry_init returns false unless count is a power of two of at least 16.
-/// Interrupt   sid_telemetry_push: constant-time, 5 stores. The others: background. One writer,
+/// Interrupt   sid_telemetry_push: constant-time, 4 stores. The others: background. One writer,
 ///             one reader, no lock.
 /// Memory      sizeof(sid_telemetry_t) <= 32 bytes, and 12 bytes a row of the caller's.
 #ifndef SERVOID_SID_TELEMETRY_H
@@ -46,6 +46,8 @@ typedef struct {
     uint32_t lost;
     uint16_t sequence;
 } sid_telemetry_t;
+
+SID_STATIC_ASSERT(sizeof(sid_telemetry_t) <= 32, telemetry_fits_its_stated_size);
 
 /// What the integers of this drive mean; constant while it is powered.
 typedef struct {
