@@ -1,6 +1,7 @@
 #include "compare/held.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace servoid {
 
@@ -81,10 +82,15 @@ double HeldWeight::at(double time_s) const {
     return 1 - u * u * u * (10 - u * (15 - 6 * u));
 }
 
+// Only where an interval reaches: a long record is mostly none.
 Eigen::VectorXd HeldWeight::at(double start_s, double step_s, Eigen::Index count) const {
-    Eigen::VectorXd out(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-        out[i] = at(start_s + double(i) * step_s);
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(count);
+    for (const Interval& held : intervals_) {
+        const double first = std::floor((held.from_s - ramp_s_ - start_s) / step_s);
+        const double last = std::ceil((held.to_s + ramp_s_ - start_s) / step_s);
+        for (auto i = Eigen::Index(std::max(0.0, first)); i < count && double(i) <= last; ++i)
+            out[i] = at(start_s + double(i) * step_s);
+    }
     return out;
 }
 

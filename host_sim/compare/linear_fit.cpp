@@ -43,7 +43,9 @@ Matrix pick(const Matrix& columns, const std::vector<int>& which) {
 
 double condition_of(const Matrix& x) {
     if (x.cols() < 2) return 1;
-    const Matrix scaled = x * x.colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
+    // A vector first: as an expression it would be evaluated once for every entry of x.
+    const Vector scale = x.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+    const Matrix scaled = x * scale.asDiagonal();
     const Vector power =
         Eigen::SelfAdjointEigenSolver<Matrix>(scaled.transpose() * scaled).eigenvalues();
     return power[0] > 0 ? std::sqrt(power[power.size() - 1] / power[0]) : INFINITY;

@@ -58,8 +58,8 @@ struct Change {
 std::map<std::string, double> shares_of(const FitResult& fitted, Assembler& assembler) {
     assembler.set_context(fitted.model);
     const Eigen::MatrixXd x = assembler.assemble(fitted.model).columns;
-    const Eigen::MatrixXd unit =
-        x * x.colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
+    const Eigen::VectorXd scale = x.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+    const Eigen::MatrixXd unit = x * scale.asDiagonal();
     // The part of a column that is its own: one over the diagonal of the inverse of the products.
     const Eigen::VectorXd inflation = pseudo_inverse(unit.transpose() * unit).diagonal();
     std::map<std::string, double> out;
