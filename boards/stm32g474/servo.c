@@ -7,6 +7,8 @@
 #include "servoid/servoid.h"
 #include "stm32g474.h"
 
+#include <string.h>
+
 #define CONTROL_PRIORITY 0x10U // of the control interrupt, and nothing else has one
 
 // PORT: the sensors, 2048 counts of 12 bits for four times the rated current.
@@ -17,6 +19,8 @@
 #define SUM_ERROR_COUNT 100  // PORT: what goes in at A comes out at B
 #define ZERO_SAMPLES 1024    // of the zero, with the power off; 128 ms
 #define ZERO_SHIFT 10
+
+#define PER_TRIGGER_Q32 (((uint64_t)1 << 32) / POWER_STAGE_CYCLES + 1U) // for a division
 
 #define PLAN 32U
 #define ROWS 1024U       // 128 ms of telemetry
@@ -30,7 +34,11 @@ static sid_result_t results[PLAN];
 static sid_row_t rows[ROWS];
 static int32_t references[REFERENCES];
 
-// What the interrupt keeps; the main loop reads single words of it.
+// What the bus did not take waits here, and keeps its place.
+static sid_can_frame_t pending;
+static bool is_pending;
+
+// What the interrupt keeps, but for `fed`; the main loop reads single words of it.
 static struct {
     int32_t zero_a; // sums until there are ZERO_SAMPLES of them, then the mean
     int32_t zero_b;
@@ -44,6 +52,7 @@ static struct {
     volatile uint32_t fault; // servo_fault_t
     volatile uint32_t missed;
     volatile uint32_t samples;
+    uint32_t fed; // samples when the main loop last fed the watchdog
     volatile bool ready;
     volatile bool powered;
 } servo;
@@ -117,7 +126,7 @@ static uint32_t count_triggers(void) {
     const uint32_t now = *DWT_CYCCNT;
     const uint32_t elapsed = now - servo.cycles;
     servo.cycles = now;
-    return (elapsed + POWER_STAGE_CYCLES / 2U) / POWER_STAGE_CYCLES;
+    return (uint32_t)((((uint64_t)elapsed + POWER_STAGE_CYCLES / 2U) * PER_TRIGGER_Q32) >> 32);
 }
 
 static void watch(bool is_on) {
@@ -184,6 +193,8 @@ static void describe_axis(void) { // PORT: the axis
 }
 
 bool servo_init(void) {
+    memset(&servo, 0, sizeof(servo));
+    is_pending = false;
     describe_axis();
     config.identify.results = results;
     config.identify.position_bits = 32;
@@ -205,10 +216,6 @@ bool servo_init(void) {
 }
 
 // ---------------------------------------------------------------- the main loop
-
-// What the bus did not take waits here, and keeps its place.
-static sid_can_frame_t pending;
-static bool is_pending;
 
 static void give(bool is_new) {
     is_pending = is_new || is_pending;
@@ -237,9 +244,8 @@ static void stop_node(void) {
 }
 
 static void feed_watchdog(void) {
-    static uint32_t fed;
-    if (servo.samples != fed) {
-        fed = servo.samples;
+    if (servo.samples != servo.fed) {
+        servo.fed = servo.samples;
         watchdog_kick();
     }
 }
