@@ -1,5 +1,6 @@
 #include "drive_loop.h"
 
+#include "power_stage.h"
 #include "servoid/servoid.h"
 
 // PORT: the axis and its winding. Here: system 1 of Andoh 2008 (0.116e-4 kg m^2, rated 0.637 N m)
@@ -10,8 +11,7 @@
 #define CURRENT_GAIN_Q15 4289     // 2 pi 400 Hz * L * rated current / supply
 #define CURRENT_INTEGRAL_Q15 1072 // 2 pi 400 Hz * R * 125 us * rated current / supply
 #define TORQUE_LIMIT_PU_Q20 (3 << 20)
-#define VOLTAGE_LIMIT_Q15 30720
-#define VOLTAGE_LIMIT_Q35 ((int64_t)VOLTAGE_LIMIT_Q15 << 20)
+#define VOLTAGE_LIMIT_Q35 ((int64_t)POWER_STAGE_MOST_VOLTAGE_Q15 << 20)
 
 static sid_loop_t loop;
 static int64_t integral_q35;

@@ -15,8 +15,8 @@
 #define FDCAN_NOMINAL_SEG1 135U
 #define FDCAN_NOMINAL_SEG2 34U
 #define FDCAN_DATA_SEG1                                                                            \
-    26U                    // PORT: 26 and 7 are 5 Mbit/s; 67 and 17 would not fit (2 Mbit/s needs a
-#define FDCAN_DATA_SEG2 7U // divider of 5, and gives up the delay compensation)
+    26U // PORT: a bit has at most 49 quanta; below 3.5 Mbit/s it needs a divider
+#define FDCAN_DATA_SEG2 7U
 
 bool fdcan_init(uint32_t node_id);
 bool fdcan_receive(sid_can_frame_t* frame);

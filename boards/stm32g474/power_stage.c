@@ -7,11 +7,9 @@
 #define ADC_CHANNEL_A 6U // PC0
 #define ADC_CHANNEL_B 7U // PC1
 #define SAMPLING_24_5_CYCLES 3U
-#define VOLTAGE_MOST_Q15 30720
 #define BREAK_FILTER 3U   // 8 cycles of 170 MHz
 #define ENCODER_FILTER 3U // the same
 #define BREAKS (TIM_SR_BIF | TIM_SR_SBIF)
-#define IRQ_PRIORITY 0x10U // sid_hal_enter_critical masks this one
 
 SID_STATIC_ASSERT(POWER_STAGE_CYCLES* POWER_STAGE_RATE_HZ == 170000000U, exactly_8_kHz);
 SID_STATIC_ASSERT(POWER_STAGE_HALF_PERIODS % 2U == 0U, trigger_at_one_kind_of_turn);
@@ -115,7 +113,7 @@ bool power_stage_init(void) {
 }
 
 void power_stage_start(void) {
-    NVIC_IPR[ADC1_2_IRQ] = IRQ_PRIORITY;
+    NVIC_IPR[ADC1_2_IRQ] = POWER_STAGE_IRQ_PRIORITY;
     *NVIC_ISER0 = BIT(ADC1_2_IRQ);
     ADC2->CR = ADC_CR_ADVREGEN | ADC_CR_ADEN | ADC_CR_JADSTART;
     ADC1->CR = ADC_CR_ADVREGEN | ADC_CR_ADEN | ADC_CR_JADSTART;
@@ -128,7 +126,8 @@ bool power_stage_is_broken(void) { return (TIM1->SR & BREAKS) != 0U; }
 void power_stage_forgive_break(void) { TIM1->SR = ~BREAKS; } // a 1 changes nothing
 
 void power_stage_set_voltage(int32_t voltage_q15) {
-    const int32_t v = sid_clamp(voltage_q15, -VOLTAGE_MOST_Q15, VOLTAGE_MOST_Q15);
+    const int32_t v =
+        sid_clamp(voltage_q15, -POWER_STAGE_MOST_VOLTAGE_Q15, POWER_STAGE_MOST_VOLTAGE_Q15);
     TIM1->CCR1 = (POWER_STAGE_ARR * (uint32_t)(32768 + v) + 32768U) >> 16;
     TIM1->CCR2 = (POWER_STAGE_ARR * (uint32_t)(32768 - v) + 32768U) >> 16;
 }

@@ -19,7 +19,9 @@
 #define POWER_STAGE_ARR 2125U        // turns of the counter: 170 MHz / 2 / 40 kHz
 #define POWER_STAGE_HALF_PERIODS 10U // to a control period; even, so that it is always a lower turn
 #define POWER_STAGE_CYCLES (POWER_STAGE_ARR * POWER_STAGE_HALF_PERIODS)
-#define POWER_STAGE_DEAD_TIME_CYCLES 85U // PORT: 500 ns; at most 127 with this coding
+#define POWER_STAGE_MOST_VOLTAGE_Q15 30720 // 15/16: low sides recharge drivers, sensors see edges
+#define POWER_STAGE_IRQ_PRIORITY 0x10U     // of the control interrupt; nothing else has one
+#define POWER_STAGE_DEAD_TIME_CYCLES 85U   // PORT: 500 ns; at most 127 with this coding
 
 /// Timers, pins and converters; the outputs are off, the control interrupt is not enabled yet.
 /// False if a converter does not start.
@@ -33,8 +35,7 @@ void power_stage_off(void);
 bool power_stage_is_broken(void);
 void power_stage_forgive_break(void);
 
-/// Mean voltage across the motor as a fraction of the supply, Q15, clamped to +-15/16: the low
-/// sides must recharge the drivers, and the sensors see the switching.
+/// Mean voltage across the motor as a fraction of the supply, Q15, clamped.
 void power_stage_set_voltage(int32_t voltage_q15);
 
 typedef struct {

@@ -9,8 +9,6 @@
 
 #include <string.h>
 
-#define CONTROL_PRIORITY 0x10U // of the control interrupt, and nothing else has one
-
 // PORT: the sensors, 2048 counts of 12 bits for four times the rated current.
 #define CURRENT_PU_Q20_PER_COUNT 2048
 #define OVERCURRENT_PU_Q20 (7 << 19) // PORT: 3.5 times rated
@@ -91,7 +89,7 @@ void sid_hal_write_reference(int32_t reference_q8) {
 uint64_t sid_hal_sample_rate_uHz(void) { return POWER_STAGE_RATE_HZ * (uint64_t)1000000; }
 
 // The main loop does not preempt the interrupt, so nothing here needs them; a program may.
-void sid_hal_enter_critical(void) { cortex_m4_set_basepri(CONTROL_PRIORITY); }
+void sid_hal_enter_critical(void) { cortex_m4_set_basepri(POWER_STAGE_IRQ_PRIORITY); }
 void sid_hal_exit_critical(void) { cortex_m4_set_basepri(0); }
 
 bool sid_hal_can_receive(sid_can_frame_t* frame) { return fdcan_receive(frame); }
