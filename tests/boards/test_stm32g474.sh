@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The port to the STM32G474. Its image: vectors, what it links, flash and RAM as its README says. Its
-# code, on fake registers, on the PC and on a Cortex-M4: what it writes gives the clock, rates and bit
-# timings that are claimed; frames of every length; a session on a simulated motor; every fault.
+# The port to the STM32G474. Its image: vectors, what it links, start-up, flash and RAM as its README
+# says. Its code, on fake registers, on the PC and on a Cortex-M4: what it writes gives the clock, rates
+# and bit timings that are claimed; frames of every length; a session on a simulated motor; every fault.
 . "$(dirname "$0")/support.sh"
 port=$root/boards/stm32g474
 tests=$here/stm32g474
@@ -35,12 +35,28 @@ check_links() { # IMAGE
     done
 }
 
+# On the nearest part that is emulated, an STM32F405: the same core, flash and SRAM at the same places,
+# but no crystal that ever gets ready. The image starts up, and stays in main.
+check_boot() { # IMAGE
+    local pc start size
+    (for _ in 1 2 3 4; do sleep 0.5; echo 'info registers'; done
+        echo 'xp /1xw 0xe000ed88'; echo 'xp /1xw 0xe000ed08'; echo quit) |
+        timeout 50 qemu-system-arm -M netduinoplus2 -display none -serial none -monitor stdio -kernel "$1" \
+            >boot.txt || fail "$1: does not start: $(tail -n 3 boot.txt)"
+    pc=$((0x$(sed -n 's/.*R15=\([0-9a-f]*\).*/\1/p' boot.txt | tail -n 1)))
+    read -r start size < <(arm-none-eabi-nm -S "$1" | awk '$4 == "main" { print $1, $2 }')
+    ((pc >= 0x$start && pc < 0x$start + 0x$size)) || fail "$1: is at $pc, not in main"
+    grep -q 'e000ed88: 0x00f00000' boot.txt || fail "$1: the FPU is off"
+    grep -q 'e000ed08: 0x08000000' boot.txt || fail "$1: VTOR is not the flash"
+}
+
 row() { printf '| %s |' "$1"; printf ' %s |' "${@:2}"; echo; } # NAME CELL...
 flash=() ram=()
 for level in -O2 -Os; do
     build stm32g474 "image$level" "$port"/*.c -- $level
     check_vectors "image$level"
     check_links "image$level"
+    check_boot "image$level"
     read -r text data bss < <(arm-none-eabi-size "image$level" | awk 'NR == 2 { print $1, $2, $3 }')
     flash+=($((text + data))) ram+=($((data + bss)))
     ((text + data <= 32768)) || fail "$level: $((text + data)) bytes of flash"
