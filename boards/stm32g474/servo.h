@@ -23,7 +23,7 @@ typedef enum {
     SERVO_BREAK, ///< the break input, or what else stops TIM1, during a run
     SERVO_OVERCURRENT,
     SERVO_SENSOR, ///< the two sensors contradict each other, or their zero is far off
-    SERVO_OVERRUN ///< a trigger was missed, or came twice, during a run
+    SERVO_OVERRUN ///< a trigger was missed, or served half a period late, in a run
 } servo_fault_t;
 
 /// Node and loops; false if a configuration is out of range.
