@@ -2,7 +2,7 @@
 "use strict";
 
 const Candidates = (() => {
-  const atLeast = 3, likely = 0.001;
+  const atLeast = 4, likely = 0.001;
 
   function probabilityBar(c) {
     return Dom.make("div", { class: "probability" },

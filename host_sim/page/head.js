@@ -40,7 +40,7 @@ const Head = (() => {
     if (!known.length) return null;
     return Dom.drawing({ id: "error-bar", class: "error-bar" }, width => {
       const X = Axes.scale(Math.min(...known) / 2, Math.max(1, ...known), 0, width - 24, true);
-      const ticks = Axes.ticksOf(X, 5).map(t => Dom.svg("g", { class: "tick" },
+      const ticks = Axes.ticksOf(X, 5).filter(t => X(t) >= 12).map(t => Dom.svg("g", { class: "tick" },
         Dom.svg("line", { x1: X(t), x2: X(t), y1: 24, y2: 29 }),
         Dom.svg("text", { x: X(t), y: 42, "text-anchor": "middle" }, Numbers.significant(100 * t, 3))));
       return Dom.svg("svg", { width, height: 62, class: "plot", role: "img", "aria-label": "error on a logarithmic scale" },

@@ -7,12 +7,13 @@ const Ladder = (() => {
   // Steps: {name, error, unseen}. Logarithmic, so that the last steps are seen beside the first.
   function picture(width, steps, floor) {
     const known = steps.flatMap(s => [s.error, s.unseen]).concat(floor).filter(v => Numbers.known(v) && v > 0);
-    const least = floor > 0 ? floor : Math.min(...known);
+    if (!known.length) return null;
+    const least = Math.min(...known);
     const X = Axes.scale(least / 1.3, Math.max(...known) * 1.1, 12, width - 16, true);
     const bottom = steps.length * rowHeight;
-    const base = X(least);
+    const base = X(floor > 0 ? floor : X.from);
     const bars = steps.map((s, k) => [
-      s.error > 0 ? Dom.svg("rect", { class: "rung", "data-step": k, x: base, y: k * rowHeight + 8, width: Math.max(1, X(s.error) - base), height: 14 }) : null,
+      s.error > 0 ? Dom.svg("rect", { class: "rung", "data-step": k, x: Math.min(base, X(s.error)), y: k * rowHeight + 8, width: Math.max(1, Math.abs(X(s.error) - base)), height: 14 }) : null,
       s.unseen > 0 ? Dom.svg("circle", { class: "unseen", cx: X(s.unseen), cy: k * rowHeight + 15, r: 4 }) : null]);
     const ticks = Axes.ticksOf(X, width / 90).map(t => Dom.svg("g", { class: "tick" },
       Dom.svg("line", { class: "grid", x1: X(t), x2: X(t), y1: 0, y2: bottom }),

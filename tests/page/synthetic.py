@@ -63,12 +63,13 @@ def bins_of(x, y, unit, variable, count=12):
 
 def amplitudes(values, step, floor):
     """Amplitudes of sines at some frequencies; a plain sum, for few frequencies."""
-    values = values[::max(1, len(values) // 4000)]
+    stride = max(1, len(values) // 4000)
+    values = values[::stride]
     frequency, out = [], []
     for k in range(60):
         f = 0.2 * 1.1 ** k
         frequency.append(f)
-        w = 2 * math.pi * f * step * max(1, len(values) // 4000)
+        w = 2 * math.pi * f * step * stride
         c = sum(v * math.cos(w * i) for i, v in enumerate(values))
         s = sum(v * math.sin(w * i) for i, v in enumerate(values))
         out.append(2 * math.hypot(c, s) / len(values) + floor)
