@@ -2,8 +2,8 @@
 "use strict";
 
 const Captures = (() => {
-  function row(c, k, act) {
-    const box = Dom.make("input", { type: "checkbox", id: "capture-on-" + k, checked: c.on });
+  function row(c, act) {
+    const box = Dom.make("input", { type: "checkbox", id: "capture-on-" + c.index, checked: c.on });
     box.addEventListener("change", () => act("capture", { file: c.file, on: box.checked }));
     return Dom.make("li", { "data-file": c.file }, Dom.make("label", {}, box, " ", Dom.make("span", { class: "name" }, c.file)),
       Dom.make("span", { class: "hint number" }, `${c.rows} rows, ${Numbers.significant(c.duration_s, 3)} s`));
@@ -28,9 +28,9 @@ const Captures = (() => {
     return zone;
   }
 
-  function view(captures, act) {
-    return Dom.make("ul", { class: "plain" }, captures.map((c, k) => row(c, k, act)));
+  function show(box, captures, act) {
+    Dom.list(box, captures.map((c, index) => ({ ...c, index })), c => row(c, act));
   }
 
-  return { view, dropZone };
+  return { show, dropZone };
 })();

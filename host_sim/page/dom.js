@@ -3,7 +3,7 @@
 
 const Dom = (() => {
   const svgSpace = "http://www.w3.org/2000/svg";
-  const drawings = new WeakMap();
+  const drawings = new WeakMap(), kept = new WeakMap();
 
   function dress(element, attributes) {
     for (const [name, value] of Object.entries(attributes || {})) {
@@ -34,6 +34,23 @@ const Dom = (() => {
   function refill(element, ...children) {
     element.replaceChildren();
     return fill(element, children);
+  }
+
+  // The items of a list, each in a child of its own that stays as long as its item does.
+  function list(box, items, render) {
+    const old = new Map([...box.children].map(child => [kept.get(child), child]));
+    const children = items.map(item => {
+      const key = JSON.stringify(item);
+      const child = old.get(key) || render(item);
+      old.delete(key);
+      kept.set(child, key);
+      return child;
+    });
+    old.forEach(child => child.remove());
+    // What is in its place is not touched: it may hold the focus.
+    children.forEach((child, k) => {
+      if (box.children[k] !== child) box.insertBefore(child, box.children[k] || null);
+    });
   }
 
   function redraw(box) {
@@ -98,5 +115,5 @@ const Dom = (() => {
     return make("span", { id, class: "number", "data-value": number, ...attributes }, text);
   }
 
-  return { make, svg, refill, drawing, copyButton, block, fold, section, value };
+  return { make, svg, refill, list, drawing, copyButton, block, fold, section, value };
 })();

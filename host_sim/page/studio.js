@@ -20,13 +20,14 @@ const Studio = (() => {
     };
   }
 
-  // Built anew only where what it shows has changed.
+  // Built anew only where what it shows has changed: by what `render` gives, or does itself.
   function keep(name, slice, render) {
     const text = JSON.stringify(slice);
     if (shown[name] === text) return;
     shown[name] = text;
     const restore = remember(boxes[name]);
-    Dom.refill(boxes[name], render());
+    const content = render(boxes[name]);
+    if (content !== undefined) Dom.refill(boxes[name], content);
     restore();
   }
 
@@ -59,8 +60,8 @@ const Studio = (() => {
     serverError = state.error;
     keep("actions", [free, state.undo, state.redo], () => Actions.buttons(state, act));
     keep("busy", state.busy, () => Actions.progress(state.busy));
-    keep("captures", state.captures, () => Captures.view(state.captures, act));
-    keep("model", state.model, () => Terms.view(state.model, act));
+    keep("captures", state.captures, box => Captures.show(box, state.captures, act));
+    keep("model", state.model, box => Terms.show(box, state.model, act));
     keep("effects", state.effects, () => Terms.effectChoice(state.effects, act, chosen));
     keep("next", [state.experiment, free], () => Actions.next(state.experiment, free, act));
     keep("can", [state.can, state.experiment, free], () => Bus.view(state.can, state.experiment, unit, free, act, typed));
@@ -80,14 +81,14 @@ const Studio = (() => {
   }
 
   function build() {
-    const box = (name, attributes) => { boxes[name] = Dom.make("div", attributes); return boxes[name]; };
+    const box = (name, attributes, kind = "div") => { boxes[name] = Dom.make(kind, attributes); return boxes[name]; };
     const part = (title, ...content) => Dom.make("section", {}, Dom.make("h2", {}, title), content);
     const place = document.getElementById("studio");
     place.hidden = false;
     document.body.classList.add("studio");
     Dom.refill(place, Dom.make("div", { id: "now" }, box("connection", { id: "connection", role: "status", "data-state": "open" }),
       box("error", { id: "error", role: "alert", hidden: true }), box("actions", { id: "actions" }), box("busy", { id: "busy" })), Actions.downloads(),
-      part("Captures", box("captures", { id: "captures" }), Captures.dropZone(send)),
+      part("Captures", box("captures", { id: "captures", class: "plain" }, "ul"), Captures.dropZone(send)),
       part("Model", box("model", { id: "model" }), Dom.make("h3", {}, "Add an effect"), box("effects", { id: "effects" }), Terms.lawForm(act)),
       box("next", { id: "next-step" }), box("can", { id: "can" }), box("history", { id: "history" }));
   }

@@ -66,9 +66,12 @@ const Terms = (() => {
       Dom.make("code", { class: "law" }, t.law), t.parameters.map(p => parameter(p, act)));
   }
 
-  function view(model, act) {
-    return [Dom.make("div", { class: "term", "data-effect": "inertia" }, parameter(model.inertia, act)),
-      model.terms.map(t => term(t, act))];
+  function inertia(p, act) {
+    return Dom.make("div", { class: "term", "data-effect": "inertia" }, parameter(p, act));
+  }
+
+  function show(box, model, act) {
+    Dom.list(box, [{ inertia: model.inertia }].concat(model.terms), t => t.inertia ? inertia(t.inertia, act) : term(t, act));
   }
 
   // Effects that cannot be added stay in the list: the reason is worth knowing.
@@ -102,5 +105,5 @@ const Terms = (() => {
       .map(([term, meaning]) => [Dom.make("dt", {}, Dom.make("code", {}, term)), Dom.make("dd", {}, meaning)])));
   }
 
-  return { view, effectChoice, lawForm };
+  return { show, effectChoice, lawForm };
 })();
