@@ -23,7 +23,7 @@ const Candidates = (() => {
     const all = Object.entries(c.parameters || {});
     if (!all.length) return null;
     return Dom.make("table", { class: "found" }, Dom.make("tbody", {}, all.map(([name, p]) =>
-      Dom.make("tr", { "data-parameter": name }, Dom.make("th", { scope: "row" }, name),
+      Dom.make("tr", { "data-parameter": name }, Dom.make("th", { scope: "row" }, Dom.name(name)),
         Dom.make("td", { class: "number", "data-value": p.value, "data-std": p.std }, Numbers.withStd(p.value, p.std)),
         Dom.make("td", { class: "unit" }, Numbers.unit(p.unit))))));
   }
@@ -42,7 +42,7 @@ const Candidates = (() => {
     const d = story.diagnose;
     return Dom.make("article", { class: "candidate", "data-effect": c.effect, "data-probability": c.probability },
       Dom.make("div", { class: "facts" },
-        Dom.make("h3", {}, c.effect), probabilityBar(c), errors(c, d.error_before, d.validation_error_before), parameters(c),
+        Dom.make("h3", {}, Dom.name(c.effect)), probabilityBar(c), errors(c, d.error_before, d.validation_error_before), parameters(c),
         Dom.make("p", { class: "hint" }, c.signature), c.note && Dom.make("p", { class: "note" }, c.note),
         add && Dom.make("button", { type: "button", id: "add-" + c.effect, "data-add": c.effect, click: () => add(c.effect) }, "Add " + c.effect)),
       Dom.make("div", { class: "proof" }, signaturePlot((story.candidates || []).find(s => s.effect === c.effect), story.unit)));

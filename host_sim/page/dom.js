@@ -95,6 +95,11 @@ const Dom = (() => {
     return button;
   }
 
+  // A name of a parameter, which may go on in the next line after a dot or an underscore.
+  function name(text) {
+    return text.split(/(?<=[._])/).map((part, k) => k ? [make("wbr"), part] : part);
+  }
+
   // Text to take away, with its button.
   function block(id, text) {
     return make("div", { class: "block" }, copyButton(id + "-copy", text),
@@ -115,5 +120,5 @@ const Dom = (() => {
     return make("span", { id, class: "number", "data-value": number, ...attributes }, text);
   }
 
-  return { make, svg, refill, list, drawing, copyButton, block, fold, section, value };
+  return { make, svg, refill, list, drawing, copyButton, block, fold, section, value, name };
 })();

@@ -20,7 +20,8 @@ const Ladder = (() => {
       Dom.svg("text", { x: X(t), y: bottom + 14, "text-anchor": "middle" }, Numbers.significant(100 * t, 3))));
     return Dom.svg("svg", { width, height: bottom + foot, class: "plot", role: "img", "aria-label": "error per step" }, ticks, bars,
       floor > 0 ? Dom.svg("line", { class: "floor-line", x1: base, x2: base, y1: 0, y2: bottom }) : null,
-      Dom.svg("text", { class: "axis-title", "data-axis": "x", "data-unit": "%", x: width - 16, y: bottom + 32, "text-anchor": "end" }, "torque error (logarithmic), %"));
+      floor > 0 && width > 340 ? Dom.svg("text", { x: base, y: bottom + 32 }, "noise floor") : null,
+      Dom.svg("text", { class: "axis-title", "data-axis": "x", "data-unit": "%", x: width - 16, y: bottom + 32, "text-anchor": "end" }, width > 220 ? "torque error (logarithmic), %" : "error, %"));
   }
 
   function numbers(steps) {
@@ -28,7 +29,7 @@ const Ladder = (() => {
     const head = (text, number) => Dom.make("th", { scope: "col", class: number ? "number" : "" }, text);
     return Dom.make("table", { class: "ladder-table" },
       Dom.make("thead", {}, Dom.make("tr", {}, head("step"), head("fitted", true), unseen && head("unseen", true))),
-      Dom.make("tbody", {}, steps.map((s, k) => Dom.make("tr", { "data-step": k }, Dom.make("th", { scope: "row" }, s.name),
+      Dom.make("tbody", {}, steps.map((s, k) => Dom.make("tr", { "data-step": k }, Dom.make("th", { scope: "row" }, Dom.name(s.name)),
         Dom.make("td", { class: "number", "data-figure": "fitted", "data-value": s.error }, Numbers.percent(s.error)),
         unseen && Dom.make("td", { class: "number", "data-figure": "unseen", "data-value": s.unseen }, Numbers.percent(s.unseen))))));
   }

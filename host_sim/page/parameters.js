@@ -33,7 +33,7 @@ const Parameters = (() => {
       Dom.make("thead", {}, Dom.make("tr", {}, heads.map(([h, number]) => Dom.make("th", { scope: "col", class: number ? "number" : "" }, h)))),
       Dom.make("tbody", {}, names.map(name => {
         const old = of(before, name), found = of(after, name), last = found || old;
-        return Dom.make("tr", { "data-parameter": name }, Dom.make("th", { scope: "row" }, name), cell("before", old),
+        return Dom.make("tr", { "data-parameter": name }, Dom.make("th", { scope: "row" }, Dom.name(name)), cell("before", old),
           after.length ? cell("after", found) : null, Dom.make("td", { class: "unit" }, Numbers.unit(last.unit)),
           Dom.make("td", { class: "number", "data-value": last.believed }, Numbers.significant(last.believed)),
           Dom.make("td", { class: "number" }, bounds(last)), Dom.make("td", {}, flags(last)));
@@ -46,7 +46,7 @@ const Parameters = (() => {
     const text = `${names[i]} and ${names[j]}: ${c.toFixed(3)}`;
     const td = Dom.make("td", { class: "heat number", tabindex: i === 0 && j === 0 ? "0" : "-1", "data-row": i, "data-column": j, "data-value": c,
       title: text, focus: () => say(text), pointerenter: () => say(text) }, c.toFixed(2));
-    td.style.setProperty("--strength", Math.round(55 * Math.abs(c)) + "%");
+    td.style.setProperty("--strength", Math.round(50 * Math.abs(c)) + "%");
     td.classList.add(c < 0 ? "negative" : "positive");
     return td;
   }
@@ -73,7 +73,7 @@ const Parameters = (() => {
       Dom.make("p", { class: "hint" }, "Near ±1: the captures cannot tell these two apart. ", reading),
       Dom.make("div", { class: "scroll" }, Dom.make("table", { class: "heat-table", keydown: walk },
         Dom.make("thead", {}, Dom.make("tr", {}, Dom.make("td"), Dom.make("td"), p.name.map((n, k) => Dom.make("th", { scope: "col", title: n, "aria-label": n }, k + 1)))),
-        Dom.make("tbody", {}, p.name.map((n, i) => Dom.make("tr", {}, Dom.make("th", { scope: "row" }, n), Dom.make("td", { class: "index" }, i + 1),
+        Dom.make("tbody", {}, p.name.map((n, i) => Dom.make("tr", {}, Dom.make("th", { scope: "row" }, Dom.name(n)), Dom.make("td", { class: "index" }, i + 1),
           p.name.map((m, j) => heat(p.name, matrix, i, j, say))))))));
   }
 

@@ -43,7 +43,7 @@ const Strips = (() => {
   }
 
   function entry(strip, track) {
-    const value = Dom.make("output", { class: "number", "data-track": track.key });
+    const value = Dom.make("span", { class: "number", "data-track": track.key });
     strip.outputs.push({ track, value });
     return Dom.make("span", {}, Dom.make("i", { class: "swatch " + track.style }), track.name, " ", value);
   }
@@ -60,6 +60,7 @@ const Strips = (() => {
   // New tracks or colours: a new graph.
   function build(strip, view, wanted) {
     strip.shown = strip.tracks.filter(t => wanted(t.key));
+    if (!strip.shown.length) strip.shown = strip.tracks;
     strip.outputs = [];
     Dom.refill(strip.head,
       Dom.make("span", { class: "axis-title", "data-axis": "y", "data-unit": strip.unit }, `${strip.name}, ${strip.unit}`),

@@ -64,7 +64,8 @@ const Studio = (() => {
     keep("model", state.model, box => Terms.show(box, state.model, act));
     keep("effects", state.effects, () => Terms.effectChoice(state.effects, act, chosen));
     keep("next", [state.experiment, free], () => Actions.next(state.experiment, free, act));
-    keep("can", [state.can, state.experiment, free], () => Bus.view(state.can, state.experiment, unit, free, act, typed));
+    keep("can", [state.can && [state.can.interface, state.can.running], state.experiment, free], () => Bus.view(state.can, state.experiment, free, act, typed));
+    keep("live", state.can, () => Bus.live(state.can, unit));
     keep("history", [state.history, floor], () => Actions.history(state.history, floor));
   }
 
@@ -72,6 +73,14 @@ const Studio = (() => {
     latest = state;
     panel(state);
     if (state.story_revision === storyRevision) return;
+    try {
+      await tell(state);
+    } catch (fault) {
+      complain(fault.message);
+    }
+  }
+
+  async function tell(state) {
     const story = await Server.story();
     unit = story.unit;
     floor = story.compare && story.compare.noise_floor;
@@ -90,7 +99,7 @@ const Studio = (() => {
       box("error", { id: "error", role: "alert", hidden: true }), box("actions", { id: "actions" }), box("busy", { id: "busy" })), Actions.downloads(),
       part("Captures", box("captures", { id: "captures", class: "plain" }, "ul"), Captures.dropZone(send)),
       part("Model", box("model", { id: "model" }), Dom.make("h3", {}, "Add an effect"), box("effects", { id: "effects" }), Terms.lawForm(act)),
-      box("next", { id: "next-step" }), box("can", { id: "can" }), box("history", { id: "history" }));
+      box("next", { id: "next-step" }), box("can", { id: "can" }), box("live", { id: "live" }), box("history", { id: "history" }));
   }
 
   function start() {

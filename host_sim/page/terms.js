@@ -52,7 +52,7 @@ const Terms = (() => {
     const fixed = Dom.make("input", { type: "checkbox", id: "fixed-" + p.name, checked: p.fixed });
     fixed.addEventListener("change", () => act("fix", { name: p.name, fixed: fixed.checked }));
     return Dom.make("div", { class: "parameter", "data-parameter": p.name, title: [p.meaning, limits(p)].filter(Boolean).join("; ") },
-      Dom.make("label", { for: "value-" + p.name }, p.key), numberInput(p, act), Dom.make("span", { class: "unit" }, Numbers.unit(p.unit)),
+      Dom.make("label", { for: "value-" + p.name }, Dom.name(p.key)), numberInput(p, act), Dom.make("span", { class: "unit" }, Numbers.unit(p.unit)),
       Dom.make("label", { class: "fix" }, fixed, " fixed"),
       Dom.make("span", { class: "std number", "data-std": p.std }, Numbers.known(p.std) && p.std > 0 ? "± " + Numbers.significant(p.std, 2) : ""));
   }

@@ -122,7 +122,8 @@ const TimePlot = (() => {
 
   function panel(capture, unit, onTheme) {
     const strips = stripsOf(capture, unit);
-    const span = Dom.make("output", { id: "time-window", class: "number" });
+    replace(strips);
+    const span = Dom.make("span", { id: "time-window", class: "number" });
     const tell = (v, t = null) => {
       span.textContent = `${Numbers.seconds(v.from, v.to - v.from)} … ${Numbers.seconds(v.to, v.to - v.from)} s`
         + (t === null ? "" : `, cursor ${Numbers.seconds(t, (v.to - v.from) / 100)} s`);
@@ -147,6 +148,14 @@ const TimePlot = (() => {
     if (captures.length < 2) return null;
     return Dom.make("div", { class: "tabs", role: "group", "aria-label": "captures" }, captures.map((c, k) =>
       Dom.make("button", { type: "button", id: "capture-tab-" + k, "aria-pressed": String(c === chosen), click: () => choose(c) }, c.file)));
+  }
+
+  // Those on the page; a graph listens to the window until it is told to stop.
+  let alive = [];
+
+  function replace(strips) {
+    alive.filter(s => s.graph).forEach(s => s.graph.destroy());
+    alive = strips;
   }
 
   let themed = () => {};

@@ -8,6 +8,7 @@ import time
 
 import assemble
 from selenium import webdriver
+from selenium.common.exceptions import NoSuchElementException, StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
@@ -66,9 +67,16 @@ def requests(driver):
     return [url for url in urls if not url.startswith("data:")]
 
 
+def there(condition):
+    try:
+        return condition()
+    except (NoSuchElementException, StaleElementReferenceException):
+        return False  # just being built anew
+
+
 def wait(condition, what, seconds=10):
     end = time.monotonic() + seconds
-    while not condition():
+    while not there(condition):
         if time.monotonic() > end:
             raise AssertionError("waited in vain: " + what)
         time.sleep(0.05)

@@ -7,7 +7,8 @@ import sys
 import assemble
 
 TEXT = {"paper": "ink muted accent residual refined good warn bad idle", "panel": "ink muted accent residual",
-        "accent": "on-accent", "residual": "on-accent", "line": "ink"}
+        "accent": "on-accent", "residual": "on-accent", "line": "ink", "heat+": "ink",
+        "heat-": "ink"}
 LINES = {"paper": "measured recorded model residual refined accent ink"}
 
 
@@ -28,6 +29,12 @@ def contrast(one, other):
     return (light + 0.05) / (dark + 0.05)
 
 
+def heat(palette, tone):
+    """The strongest cell of the correlation table: 50 % of the tone on paper."""
+    mix = lambda i: round(0.5 * int(palette[tone][i:i + 2], 16) + 0.5 * int(palette["paper"][i:i + 2], 16))
+    return "#" + "".join(f"{mix(i):02x}" for i in (1, 3, 5))
+
+
 def weak(pairs, least, palette, theme):
     for ground, names in pairs.items():
         for name in names.split():
@@ -37,6 +44,8 @@ def weak(pairs, least, palette, theme):
 
 
 found = list(themes())
+for _, palette in found:
+    palette.update({"heat+": heat(palette, "accent"), "heat-": heat(palette, "residual")})
 assert len(found) == 2, f"expected a light and a dark palette: {[name for name, _ in found]}"
 faults = [f for theme, palette in found for pairs, least in ((TEXT, 4.5), (LINES, 3.0))
           for f in weak(pairs, least, palette, theme)]

@@ -170,7 +170,7 @@ class Studio(unittest.TestCase):
         self.asked(action="run", experiment="trapezoid:stroke=0.2,cycles=2")
         self.shown("can-rows", "200 rows")
         browser.settle(self.driver)
-        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "#can svg .line")), 2)
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "#live svg .line")), 2)
 
     def test_the_window_in_time_survives_a_new_story(self):
         self.click("zoom-in")

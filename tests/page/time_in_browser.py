@@ -85,6 +85,29 @@ class OverTime(unittest.TestCase):
             ActionChains(self.driver).double_click(self.plot()).perform()
             self.assertEqual(self.window(), whole)
 
+    def touch(self, kind, *xs):
+        box = self.plot().rect
+        top = self.driver.execute_script("return arguments[0].getBoundingClientRect().top", self.plot())
+        points = [{"x": box["x"] + x, "y": top + 50, "id": k} for k, x in enumerate(xs)]
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    def test_two_fingers_pan_and_pinch(self):
+        with browser.report(self.driver, self.short):
+            self.driver.find_element(By.ID, "zoom-in").click()
+            near = self.window()
+            self.touch("touchStart", 400, 500)
+            for x in range(10, 110, 10):
+                self.touch("touchMove", 400 + x, 500 + x)
+            self.touch("touchEnd")
+            moved = self.window()
+            self.assertLess(moved[0], near[0] - 0.2)
+            self.assertAlmostEqual(moved[1] - moved[0], near[1] - near[0], delta=0.1 * (near[1] - near[0]))
+            self.touch("touchStart", 400, 500)
+            for x in range(10, 110, 10):
+                self.touch("touchMove", 400 - x, 500 + x)
+            self.touch("touchEnd")
+            self.assertLess(self.window()[1] - self.window()[0], 0.6 * (moved[1] - moved[0]))
+
     def test_zoom_by_wheel_only_with_ctrl(self):
         with browser.report(self.driver, self.short):
             whole, plot = self.window(), self.plot()
@@ -113,14 +136,14 @@ class OverTime(unittest.TestCase):
         with browser.report(self.driver, self.short):
             ActionChains(self.driver).move_to_element(self.plot()).perform()
             for track in ("torque", "model_torque", "residual", "position"):
-                text = self.driver.find_element(By.CSS_SELECTOR, f"output[data-track={track}]").text
+                text = self.driver.find_element(By.CSS_SELECTOR, f"[data-track={track}]").text
                 self.assertRegex(text, r"^-?[\d.]+", track)
 
     def test_switches_show_more_tracks(self):
         with browser.report(self.driver, self.short):
-            self.assertFalse(self.driver.find_elements(By.CSS_SELECTOR, "output[data-track=recorded_torque]"))
+            self.assertFalse(self.driver.find_elements(By.CSS_SELECTOR, "[data-track=recorded_torque]"))
             self.driver.find_element(By.ID, "show-recorded_torque").click()
-            self.assertTrue(self.driver.find_elements(By.CSS_SELECTOR, "output[data-track=recorded_torque]"))
+            self.assertTrue(self.driver.find_elements(By.CSS_SELECTOR, "[data-track=recorded_torque]"))
             self.assertEqual(browser.complaints(self.driver), [])
 
     def test_a_large_story_opens_fast(self):
