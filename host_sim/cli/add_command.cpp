@@ -6,7 +6,15 @@ namespace servoid::cli {
 
 namespace {
 
-// As it is where a shell takes it as one word; else in single quotes.
+std::string free_name(const Model& model) {
+    std::string name = "cubic";
+    for (int i = 2; model.find("custom." + name); ++i)
+        name = fmt::format("cubic{}", i);
+    return name;
+}
+
+} // namespace
+
 std::string shell_word(const std::string& text) {
     constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                   "0123456789_-+=.,:/%@";
@@ -17,14 +25,13 @@ std::string shell_word(const std::string& text) {
     return out + "'";
 }
 
-std::string free_name(const Model& model) {
-    std::string name = "cubic";
-    for (int i = 2; model.find("custom." + name); ++i)
-        name = fmt::format("cubic{}", i);
-    return name;
+std::string options_of(const CaptureOptions& captures) {
+    std::string out;
+    if (!captures.map.empty()) out += " --map " + shell_word(captures.map);
+    if (captures.band_Hz) out += fmt::format(" --band {}", *captures.band_Hz);
+    if (!captures.input.empty()) out += " --input " + captures.input;
+    return out;
 }
-
-} // namespace
 
 std::string add_command(const std::string& law, const Model& model, const std::string& model_path,
                         const CaptureOptions& captures) {
@@ -33,10 +40,7 @@ std::string add_command(const std::string& law, const Model& model, const std::s
         fmt::format("servoid add 'custom.{}={}' {}", name, law, shell_word(model_path));
     for (const std::string& file : captures.files)
         out += " " + shell_word(file);
-    if (!captures.map.empty()) out += " --map " + shell_word(captures.map);
-    if (captures.band_Hz) out += fmt::format(" --band {}", *captures.band_Hz);
-    if (!captures.input.empty()) out += " --input " + captures.input;
-    return out + fmt::format(" --out with_{}.toml", name);
+    return out + options_of(captures) + fmt::format(" --out with_{}.toml", name);
 }
 
 } // namespace servoid::cli

@@ -1,20 +1,17 @@
 // The command line: one file per verb, each adds its own subcommand.
 #pragma once
 
+#include "answers/json.hpp"
 #include "capture/capture.hpp"
 #include "cli/verb.hpp"
 #include "compare/motion.hpp"
 #include "model/model.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace servoid::cli {
-
-using Json = nlohmann::ordered_json;
 
 // What every verb has.
 struct Output {
@@ -66,6 +63,7 @@ void add_reveal(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_drive(CLI::App& app);
 void add_command(CLI::App& app);
+void add_report(CLI::App& app);
 
 // Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
 int run(int argc, char** argv);

@@ -42,13 +42,6 @@ void warn_of_zero(const Model& model, const PreparedMotion& motion,
     output.note("servoid: warning: " + warnings.back());
 }
 
-Json cannot_show_json(const std::vector<Unseen>& unseen) {
-    Json out = Json::array();
-    for (const Unseen& u : unseen)
-        out.push_back({{"effect", u.effect}, {"why", u.why}, {"record", u.record}});
-    return out;
-}
-
 void print_cannot_show(const Output& output, const std::vector<Unseen>& unseen) {
     std::vector<std::pair<std::string, std::string>> groups; // why, effects
     for (const Unseen& u : unseen) {

@@ -16,7 +16,6 @@ check_capture(const Model& model, const std::vector<PreparedMotion>& motions, co
 void warn_of_zero(const Model& model, const PreparedMotion& motion,
                   std::vector<std::string>& warnings, const Output& output);
 
-Json cannot_show_json(const std::vector<Unseen>& unseen);
 // "this capture cannot show: …", a line per reason.
 void print_cannot_show(const Output& output, const std::vector<Unseen>& unseen);
 

@@ -1,4 +1,4 @@
-// What `compare` found, as JSON and on the terminal.
+// What `compare` found, on the terminal.
 #pragma once
 
 #include "cli/app.hpp"
@@ -6,7 +6,6 @@
 
 namespace servoid::cli {
 
-Json compare_json(const Comparison& c, const std::vector<std::string>& warnings);
 void print_comparison(const Output& out, const Comparison& c);
 
 } // namespace servoid::cli

@@ -1,4 +1,5 @@
 // servoid add: one more effect, fitted with everything else.
+#include "answers/model_json.hpp"
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/parameters.hpp"

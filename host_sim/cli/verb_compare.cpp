@@ -1,4 +1,5 @@
 // servoid compare: how far model and measurement are apart, and where.
+#include "answers/compare_json.hpp"
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/compare_output.hpp"

@@ -1,16 +1,16 @@
 // servoid diagnose: which physical effect is missing?
+#include "answers/diagnose_json.hpp"
 #include "cli/add_command.hpp"
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/parameters.hpp"
+#include "cli/progress.hpp"
 #include "common/file.hpp"
 #include "diagnose/diagnose.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include <iostream>
 #include <memory>
 
 namespace servoid::cli {
@@ -23,84 +23,10 @@ struct Options {
     std::string model;
 };
 
-Json parameters_of(const Candidate& c, const Diagnosis& d, bool ampere) {
-    Json out = Json::object();
-    for (const FittedParameter& p : c.parameters)
-        out[p.name] = parameter(p.estimate.value, p.estimate.std,
-                                unit_of(p.quantity, d.before.model.motion, ampere));
-    return out;
-}
-
-Json candidate_json(const Candidate& c, const Diagnosis& d, bool ampere) {
-    Json out = {{"effect", c.effect},
-                {"probability", number(c.probability)},
-                {"error_after", number(c.error_after)},
-                {"validation_error_after", number(c.validation_error_after)},
-                {"parameters", parameters_of(c, d, ampere)},
-                {"signature", c.signature}};
-    if (!c.note.empty()) out["note"] = c.note;
-    return out;
-}
-
-Json outside_json(const Diagnosis& d) {
-    return d.outside.empty() ? Json(nullptr) : Json(d.outside);
-}
-
 // A law that no catalogue names is of use only to who can add it.
 void advise_to_add(Diagnosis& d, const std::string& model_path, const CaptureOptions& captures) {
     if (d.outside.empty()) return;
     d.advice += "; to add it: " + add_command(d.outside, d.before.model, model_path, captures);
-}
-
-Json next_json(const std::optional<NextExperiment>& next) {
-    if (!next) return nullptr;
-    return {{"experiment", next->experiment},
-            {"separation", number(next->separation)},
-            {"reason", next->reason}};
-}
-
-using Warnings = std::vector<std::string>;
-using Zeros = std::vector<CaptureZero>;
-
-// With the effect that was found, else of the model as it is.
-const Homing& homing_of(const Diagnosis& d) {
-    const bool found = d.verdict == Verdict::missing || d.verdict == Verdict::ambiguous;
-    return found ? d.candidates.front().fit.homing : d.before.homing;
-}
-
-Json to_json(const Diagnosis& d, const Warnings& warnings, const Zeros& zeros, bool ampere) {
-    Json out = {{"schema", "servoid.diagnose/1"},
-                {"verdict", verdict_name(d.verdict)},
-                {"error_before", number(d.error_before)},
-                {"validation_error_before", number(d.validation_error_before)},
-                {"noise_floor", number(d.noise_floor)},
-                {"noise_floor_from", d.floor_from_repetition ? "repetition" : "quantisation"},
-                {"band_Hz", d.band_Hz},
-                {"candidates", Json::array()}};
-    for (const Candidate& c : d.candidates)
-        out["candidates"].push_back(candidate_json(c, d, ampere));
-    out["probes"] = Json::array();
-    for (const Probe& p : d.probes)
-        out["probes"].push_back({{"variable", p.name}, {"explained", number(p.explained)}});
-    out["model_parameters"] = fitted_parameters(d.before, ampere);
-    add_homing(out, zeros);
-    out["next_experiment"] = next_json(d.next);
-    out["outside"] = outside_json(d);
-    out["cannot_show"] = cannot_show_json(d.cannot_show);
-    out["warnings"] = warnings;
-    if (d.shortage) out["reason"] = d.shortage->why;
-    out["advice"] = d.advice;
-    return out;
-}
-
-// Of a capture that was refused before anything could be said.
-Json no_diagnosis() {
-    return {{"schema", "servoid.diagnose/1"}, {"verdict", nullptr},
-            {"error_before", nullptr},        {"validation_error_before", nullptr},
-            {"noise_floor", nullptr},         {"band_Hz", nullptr},
-            {"candidates", Json::array()},    {"model_parameters", nullptr},
-            {"next_experiment", nullptr},     {"outside", nullptr},
-            {"cannot_show", Json::array()},   {"warnings", Json::array()}};
 }
 
 void print_best(const Output& out, const Diagnosis& d, bool ampere) {
@@ -129,16 +55,6 @@ void print(const Output& out, const Diagnosis& d, bool ampere) {
     print_cannot_show(out, d.cannot_show);
 }
 
-DiagnoseOptions with_progress(const Output& output) {
-    DiagnoseOptions options;
-    if (isatty(STDERR_FILENO) && !output.quiet)
-        options.progress = [](const std::string& effect, double share) {
-            std::cerr << fmt::format("\r{:3.0f} %  {:<24}", 100 * share, effect)
-                      << (share > 0.95 ? "\r                                \r" : "") << std::flush;
-        };
-    return options;
-}
-
 void answer_diagnose(const Options& o) {
     const Model model = read_model(o.model);
     const std::vector<Capture> captures = o.captures.read(&model);
@@ -148,7 +64,7 @@ void answer_diagnose(const Options& o) {
     Diagnosis d = diagnose(model, motions, with_progress(o.output));
     advise_to_add(d, o.model, o.captures);
     const Zeros zeros = zeros_of(homing_of(d), captures);
-    o.output.print_json(to_json(d, warnings, zeros, ampere));
+    o.output.print_json(diagnosis_json(d, warnings, zeros, ampere));
     print(o.output, d, ampere);
     print_homing(o.output, zeros);
     refuse_if_insufficient(d);
@@ -162,44 +78,6 @@ struct RefineOptions : Options {
     std::vector<std::string> validate;
     std::string out;
 };
-
-Json to_json(const Refinement& r, const Warnings& warnings, const Zeros& zeros, bool ampere) {
-    Json out = {{"schema", "servoid.refine/1"},
-                {"verdict", verdict_name(r.verdict)},
-                {"ladder", Json::array()}};
-    for (const Rung& rung : r.ladder)
-        out["ladder"].push_back({{"added", rung.added.empty() ? Json(nullptr) : Json(rung.added)},
-                                 {"torque_error", number(rung.torque_error)},
-                                 {"validation_error", number(rung.validation_error)}});
-    out["removed"] = r.removed;
-    out["model"] = model_json(r.result.model);
-    out["model_parameters"] = fitted_parameters(r.result, ampere);
-    add_homing(out, zeros);
-    out["noise_floor"] = number(r.noise_floor);
-    out["band_Hz"] = r.last.band_Hz;
-    out["next_experiment"] = next_json(r.last.next);
-    out["outside"] = outside_json(r.last);
-    out["cannot_show"] = cannot_show_json(r.last.cannot_show);
-    out["warnings"] = warnings;
-    if (r.last.shortage) out["reason"] = r.last.shortage->why;
-    out["advice"] = r.last.advice;
-    return out;
-}
-
-Json no_refinement() {
-    return {{"schema", "servoid.refine/1"},
-            {"verdict", nullptr},
-            {"ladder", Json::array()},
-            {"removed", Json::array()},
-            {"model", nullptr},
-            {"model_parameters", nullptr},
-            {"noise_floor", nullptr},
-            {"band_Hz", nullptr},
-            {"next_experiment", nullptr},
-            {"outside", nullptr},
-            {"cannot_show", Json::array()},
-            {"warnings", Json::array()}};
-}
 
 void print(const Output& out, const Refinement& r, bool ampere) {
     const double top = r.ladder.front().torque_error;
@@ -231,7 +109,7 @@ void answer_refine(const RefineOptions& o) {
     Zeros zeros = zeros_of(r.result.homing, captures);
     for (const CaptureZero& zero : zeros_of(r.validation_homing, unseen))
         zeros.push_back(zero);
-    o.output.print_json(to_json(r, warnings, zeros, ampere));
+    o.output.print_json(refinement_json(r, warnings, zeros, ampere));
     print(o.output, r, ampere);
     print_homing(o.output, zeros);
     if (!o.out.empty()) o.output.line("wrote " + o.out);

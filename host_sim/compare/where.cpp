@@ -149,12 +149,24 @@ void add_orders(const Scene& s, std::vector<Regime>& out) {
     }
 }
 
+Scene scene_of(const PreparedMotion& motion, const Vector& residual) {
+    return {motion, residual, motion.capture->linear ? "m/s" : "rad/s",
+            motion.velocity.cwiseAbs().maxCoeff(), typical_top(motion.acceleration)};
+}
+
 } // namespace
 
+std::vector<std::string> motion_regimes(const PreparedMotion& motion) {
+    const Vector none;
+    const Scene scene = scene_of(motion, none);
+    std::vector<std::string> out;
+    for (Eigen::Index k = 0; k < motion.grid.count; ++k)
+        out.push_back(motion_regime(scene, k));
+    return out;
+}
+
 std::vector<Regime> where_it_fails(const PreparedMotion& motion, const Vector& residual) {
-    Scene scene{motion, residual, motion.capture->linear ? "m/s" : "rad/s"};
-    scene.top_speed = motion.velocity.cwiseAbs().maxCoeff();
-    scene.top_acceleration = typical_top(motion.acceleration);
+    const Scene scene = scene_of(motion, residual);
     std::vector<Regime> out;
     add_group(
         scene, "regime", [&](Eigen::Index k) { return motion_regime(scene, k); }, out);

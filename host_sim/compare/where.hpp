@@ -23,4 +23,7 @@ struct Regime {
 // the order above, members of a group by their place (time, frequency) or by what they hold.
 std::vector<Regime> where_it_fails(const PreparedMotion& motion, const Eigen::VectorXd& residual);
 
+// The regime of the motion ("reversal", "braking", ...) at every instant of the grid.
+std::vector<std::string> motion_regimes(const PreparedMotion& motion);
+
 } // namespace servoid

@@ -52,6 +52,7 @@ struct ParameterInfo {
 enum class Against {
     velocity,
     position,
+    acceleration,
     time,
     torque,
     torque_rate,

@@ -46,6 +46,8 @@ Axis axis_of(Against against) {
         return {"velocity", "rad/s"};
     case Against::position:
         return {"position", "rad"};
+    case Against::acceleration:
+        return {"acceleration", "rad/s²"};
     case Against::time:
         return {"time", "s"};
     case Against::torque:
@@ -70,6 +72,8 @@ Vector variable(Against against, const PreparedMotion& m) {
     switch (against) {
     case Against::position:
         return m.position;
+    case Against::acceleration:
+        return m.acceleration;
     case Against::time:
         return Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1));
     case Against::torque:

@@ -1,11 +1,10 @@
-#include "cli/compare_output.hpp"
-#include "cli/parameters.hpp"
+#include "answers/compare_json.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 
-namespace servoid::cli {
+namespace servoid {
 
 namespace {
 
@@ -85,4 +84,4 @@ Json compare_json(const Comparison& c, const std::vector<std::string>& warnings)
     return out;
 }
 
-} // namespace servoid::cli
+} // namespace servoid

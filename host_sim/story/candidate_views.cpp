@@ -1,0 +1,93 @@
+#include "story/candidate_views.hpp"
+
+#include "effects/catalogue.hpp"
+#include "story/transfer.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace servoid {
+
+namespace {
+
+using Vectors = std::vector<Eigen::VectorXd>;
+
+constexpr size_t kMost = 8;
+constexpr size_t kBins = 32;
+
+Vectors residuals_of(const Scene& scene) {
+    Vectors out;
+    for (const SceneCapture& c : scene.captures)
+        out.push_back(c.residual());
+    return out;
+}
+
+// What the effect, with everything else fitted again, takes of the residual.
+Vectors taken_by(const Candidate& candidate, const Vectors& residual,
+                 const std::vector<PreparedMotion>& motions) {
+    Vectors out = residuals_of(scene_of(candidate.fit.model, motions, candidate.fit.homing));
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = residual[i] - out[i];
+    return out;
+}
+
+// The same bins for both, so that the two curves can be laid over each other.
+Json over_bins(Against against, const Scene& scene, const Vectors& residual, const Vectors& taken) {
+    std::vector<double> x, r, t;
+    const auto r_bins = mean_over(points_against(against, scene, residual), kBins);
+    const auto t_bins = mean_over(points_against(against, scene, taken), kBins);
+    for (size_t i = 0; i < r_bins.size(); ++i)
+        x.push_back(r_bins[i].middle()), r.push_back(r_bins[i].mean), t.push_back(t_bins[i].mean);
+    return {{"x", numbers(x)}, {"residual", numbers(r)}, {"effect_torque", numbers(t)}};
+}
+
+// Line by line, the part that is in phase with the model's torque or a quarter of a turn off, as
+// torque: the ratio times the torque's rms would hide where the torque is.
+Json over_lines(Against against, const Scene& scene, const Vectors& residual,
+                const Vectors& taken) {
+    const SceneCapture& c = scene.longest();
+    const auto place = size_t(&c - scene.captures.data());
+    const Segments segments{c.motion.period_s, c.motion.band_Hz};
+    const double step = c.motion.grid.step_s;
+    const auto of = [&](const Eigen::VectorXd& y) {
+        std::vector<double> out;
+        for (const TransferLine& line : transfer(c.model_torque, y, step, segments))
+            out.push_back(
+                100 * (against == Against::in_phase ? line.response.real() : line.response.imag()));
+        return out;
+    };
+    std::vector<double> x;
+    for (const TransferLine& line : transfer(c.model_torque, residual[place], step, segments))
+        x.push_back(line.frequency_Hz);
+    return {{"x", numbers(x)},
+            {"residual", numbers(of(residual[place]))},
+            {"effect_torque", numbers(of(taken[place]))}};
+}
+
+} // namespace
+
+Json candidate_views(const Diagnosis& diagnosis, const Scene& scene,
+                     const std::vector<PreparedMotion>& motions) {
+    const Vectors residual = residuals_of(scene);
+    Json out = Json::array();
+    for (const Candidate& candidate : diagnosis.candidates) {
+        if (!candidate.fitted) continue;
+        if (out.size() == kMost) break;
+        const Against against = find_effect(candidate.effect)->info().picture.against;
+        const Vectors taken = taken_by(candidate, residual, motions);
+        const bool lines = against == Against::in_phase || against == Against::quadrature;
+        Json view = lines ? over_lines(against, scene, residual, taken)
+                          : over_bins(against, scene, residual, taken);
+        const VariableName name = name_of(against, scene);
+        view["effect"] = candidate.effect;
+        view["against"] = name.name;
+        view["against_unit"] = name.unit;
+        view["value"] = against == Against::in_phase     ? "residual in phase with the torque"
+                        : against == Against::quadrature ? "residual a quarter of a turn off"
+                                                         : "mean torque";
+        view["value_unit"] = lines ? "% of torque" : scene.unit(Quantity::torque);
+        out.push_back(view);
+    }
+    return out;
+}
+
+} // namespace servoid
