@@ -41,6 +41,14 @@ SID_STATIC_ASSERT((int64_t)-1 >> 63 == -1, right_shift_of_64_bit_is_arithmetic);
 #endif
 #endif
 
+/// A function of the background that is called and not copied: where compilers think that a copy is
+/// smaller, and it is not.
+#if defined(__GNUC__)
+#define SID_ONCE __attribute__((noinline))
+#else
+#define SID_ONCE
+#endif
+
 /// a + b, a - b modulo 2^32.
 static inline int32_t sid_add_wrap(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);
