@@ -41,9 +41,9 @@ SID_STATIC_ASSERT((int64_t)-1 >> 63 == -1, right_shift_of_64_bit_is_arithmetic);
 #endif
 #endif
 
-/// A function of the background that is called and not copied: where compilers think that a copy is
-/// smaller, and it is not.
-#if defined(__GNUC__)
+/// A function that is called and not copied where size counts (-Os), though the compiler thinks
+/// that copies are smaller.
+#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define SID_ONCE __attribute__((noinline))
 #else
 #define SID_ONCE
