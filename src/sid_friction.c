@@ -32,7 +32,7 @@ typedef struct {
     bool one_speed;
 } sid_line_t;
 
-static sid_real_t real(int64_t x) { return sid_real_make(x, 0); }
+SID_ONCE static sid_real_t real(int64_t x) { return sid_real_make(x, 0); }
 
 static sid_real_t centred(sid_real_t sum, sid_real_t a, sid_real_t b, sid_real_t count) {
     return sid_real_sub(sum, sid_real_div(sid_real_mul(a, b), count));

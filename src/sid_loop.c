@@ -67,7 +67,7 @@ static int64_t speed_error_q32(sid_loop_t* loop, int32_t reference_q8, int32_t p
 }
 
 // Once in the code, twice a sample.
-static int64_t scale(int64_t x, int32_t gain, uint32_t shift) {
+SID_ONCE static int64_t scale(int64_t x, int32_t gain, uint32_t shift) {
     return sid_mul_shift(x, gain, shift);
 }
 

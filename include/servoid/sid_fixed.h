@@ -41,6 +41,14 @@ SID_STATIC_ASSERT((int64_t)-1 >> 63 == -1, right_shift_of_64_bit_is_arithmetic);
 #endif
 #endif
 
+/// A function that is called and not copied where size counts (-Os), though the compiler thinks
+/// that copies are smaller.
+#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
+#define SID_ONCE __attribute__((noinline))
+#else
+#define SID_ONCE
+#endif
+
 /// a + b, a - b modulo 2^32.
 static inline int32_t sid_add_wrap(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);

@@ -55,5 +55,6 @@ bool cost_of_session(void) {
             cost_measure(&cost);
         }
     }
-    return cost_report(&cost, COST_MOST_STEP) && good;
+    cost_report(&cost);
+    return good;
 }

@@ -71,6 +71,37 @@ TEST(Osc, AtMostTwoLsbAfterAMillionSamples) {
     }
 }
 
+// All of a million samples, at increments whose phases fall on seams of the table, beside them, and
+// nowhere twice. Amplitude and phase: what the pair says together.
+TEST(Osc, AmplitudeAndPhaseOverAMillionSamples) {
+    const uint64_t increments[] = {increment_of(50), increment_of(33.3), increment_of(1234.567),
+                                   (1ULL << 57) + 1, (1ULL << 56) - 1,   0x4F1BBCDCBFA53E0BULL,
+                                   (1ULL << 63) - 1, 18446744073709ULL};
+    long double worst_amplitude = 0, worst_phase = 0;
+    for (const uint64_t increment : increments) {
+        long double amplitude = 0, phase = 0;
+        for (uint64_t k = 0; k <= 1000000; k++) {
+            const sid_osc_t o = sid_osc(increment * k);
+            const long double angle =
+                2 * M_PIl * (long double)(increment * k) / 18446744073709551616.0L;
+            const long double s = sinl(angle), c = cosl(angle);
+            const long double full = 2147483648.0L;
+            amplitude = std::fmax(amplitude, std::fabs(hypotl(o.sine_q31, o.cosine_q31) - full));
+            phase = std::fmax(phase, std::fabs(o.sine_q31 * c - o.cosine_q31 * s));
+        }
+        std::printf("  increment %016llx: amplitude %.3Lf, phase %.3Lf LSB of Q31\n",
+                    (unsigned long long)increment, amplitude, phase);
+        EXPECT_LE(amplitude, 2);
+        EXPECT_LE(phase, 2);
+        worst_amplitude = std::fmax(worst_amplitude, amplitude);
+        worst_phase = std::fmax(worst_phase, phase);
+    }
+    std::printf(
+        "figure: oscillator over 1e6 samples, 8 increments: amplitude within %.2Lf LSB of Q31, "
+        "phase within %.2Lf\n",
+        worst_amplitude, worst_phase);
+}
+
 TEST(Osc, IncrementIsExactToHalfAnLsb) {
     std::mt19937_64 random(seed_of("increment"));
     for (int i = 0; i < 20000; i++) {
