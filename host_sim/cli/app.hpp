@@ -64,6 +64,7 @@ void add_replay(CLI::App& app);
 void add_drive(CLI::App& app);
 void add_command(CLI::App& app);
 void add_report(CLI::App& app);
+void add_studio(CLI::App& app);
 
 // Parses, runs, prints the message of what went wrong on stderr; returns the exit code.
 int run(int argc, char** argv);

@@ -155,7 +155,12 @@ void share_out(size_t count, const std::vector<PreparedMotion>& motions, const W
             work(i, assembler, reports);
     };
     std::future<void> other = std::async(std::launch::async, worker, false);
-    worker(true);
+    try {
+        worker(true);
+    } catch (...) { // stopped by who looks at the progress: the other one has no more to do
+        next = count;
+        throw;
+    }
     other.get();
 }
 

@@ -1,0 +1,88 @@
+// servoid studio: the page, live, on this machine.
+#include "cli/add_command.hpp"
+#include "cli/app.hpp"
+#include "cli/end_on_signal.hpp"
+#include "common/error.hpp"
+#include "studio/server.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+namespace servoid::cli {
+
+namespace {
+
+struct Options {
+    Output output;
+    CaptureOptions captures;
+    std::string model;
+    int port = 0;
+    bool no_diagnose = false;
+};
+
+std::string command_of(const Options& o) {
+    std::string out = "servoid studio " + shell_word(o.model);
+    for (const std::string& file : o.captures.files)
+        out += " " + shell_word(file);
+    return out + options_of(o.captures);
+}
+
+// A log may hold several captures: each is one of its own.
+std::vector<studio::Recording> recordings_of(const Options& o, const Model& model) {
+    std::vector<studio::Recording> out;
+    for (const std::string& file : o.captures.files)
+        for (Capture& capture : o.captures.read_files({file}, &model))
+            out.push_back({std::move(capture), source_file(file), true});
+    return out;
+}
+
+studio::Setup setup_of(const Options& o) {
+    const Model model = read_model(o.model);
+    const CaptureOptions captures = o.captures;
+    return {
+        model,
+        source_file(o.model),
+        recordings_of(o, model),
+        o.captures.motion(),
+        {command_of(o)},
+        [captures, model](const std::string& path) { return captures.read_files({path}, &model); },
+        !o.no_diagnose};
+}
+
+void run_studio(const Options& o) {
+    studio::Studio studio(setup_of(o));
+    studio::Server server(studio, o.port);
+    const EndOnSignal signals;
+    o.output.print_json({{"schema", "servoid.studio/1"}, {"url", server.url()}});
+    o.output.line("studio at " + o.output.bold(server.url()));
+    o.output.line("Open it in a browser on this machine. Ctrl-C ends it; save the model before.");
+    std::cout << std::flush;
+    std::thread listener([&] { server.run(); });
+    while (!EndOnSignal::wanted())
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    server.stop();
+    listener.join();
+}
+
+} // namespace
+
+void add_studio(CLI::App& app) {
+    auto o = std::make_shared<Options>();
+    const Verb verb(app, "studio", "the same page, live: add, undo, edit, save");
+    verb.add_option("model", o->model, "model file (TOML)").required();
+    verb.add_option("captures", o->captures.files, "captures (.csv, .mat, .log)").required();
+    verb.add_option("--port", o->port, "to listen on (default: any that is free)")
+        .between(1, 65535);
+    verb.add_flag("--no-diagnose", o->no_diagnose, "diagnose only when asked");
+    add_capture_options(verb, o->captures);
+    add_output_options(verb, o->output);
+    verb.examples("  servoid studio model.toml run.csv\n"
+                  "  servoid studio model.toml a.csv b.csv --port 8080");
+    verb.callback([o] { run_studio(*o); });
+}
+
+} // namespace servoid::cli
