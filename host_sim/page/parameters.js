@@ -21,33 +21,31 @@ const Parameters = (() => {
   }
 
   function cell(when, r) {
-    return Dom.make("td", { class: "number", "data-when": when, "data-value": r && r.value, "data-std": r && r.std },
-      r ? Numbers.withStd(r.value, r.std) : "");
+    return r ? Table.number(r.value, Numbers.withStd(r.value, r.std), { "data-when": when, "data-std": r.std })
+      : Table.number(null, "", { "data-when": when });
   }
 
   function table(before, after) {
     const names = [...new Set(before.concat(after).map(r => r.name))];
     const of = (rows, name) => rows.find(r => r.name === name);
-    const heads = [["parameter"], ["before", 1], after.length && ["after", 1], ["unit"], ["believed", 1], ["bounds", 1], [""]].filter(Boolean);
-    return Dom.make("div", { class: "scroll" }, Dom.make("table", { id: "parameter-table" },
-      Dom.make("thead", {}, Dom.make("tr", {}, heads.map(([h, number]) => Dom.make("th", { scope: "col", class: number ? "number" : "" }, h)))),
-      Dom.make("tbody", {}, names.map(name => {
-        const old = of(before, name), found = of(after, name), last = found || old;
-        return Dom.make("tr", { "data-parameter": name }, Dom.make("th", { scope: "row" }, Dom.name(name)), cell("before", old),
-          after.length ? cell("after", found) : null, Dom.make("td", { class: "unit" }, Numbers.unit(last.unit)),
-          Dom.make("td", { class: "number", "data-value": last.believed }, Numbers.significant(last.believed)),
-          Dom.make("td", { class: "number" }, bounds(last)), Dom.make("td", {}, flags(last)));
-      }))));
+    const heads = ["parameter", ["before"], after.length > 0 && ["after"], "unit", ["believed"], ["bounds"], "\u00a0"];
+    return Table.wide({ id: "parameter-table" }, heads, names.map(name => {
+      const old = of(before, name), found = of(after, name), last = found || old;
+      return Table.row({ "data-parameter": name }, Table.head(Dom.name(name)), cell("before", old), after.length > 0 && cell("after", found),
+        Dom.make("td", { class: "unit" }, Numbers.unit(last.unit)), Table.number(last.believed, Numbers.significant(last.believed)),
+        Table.number(null, bounds(last)), Table.text(flags(last)));
+    }));
   }
 
+  // Where the fit knows no correlation there is still a cell to walk through.
   function heat(names, matrix, i, j, say) {
-    const c = matrix[i][j];
-    if (!Numbers.known(c)) return Dom.make("td", {}, Numbers.none);
-    const text = `${names[i]} and ${names[j]}: ${c.toFixed(3)}`;
-    const td = Dom.make("td", { class: "heat number", tabindex: i === 0 && j === 0 ? "0" : "-1", "data-row": i, "data-column": j, "data-value": c,
-      title: text, focus: () => say(text), pointerenter: () => say(text) }, c.toFixed(2));
-    td.style.setProperty("--strength", Math.round(50 * Math.abs(c)) + "%");
-    td.classList.add(c < 0 ? "negative" : "positive");
+    const c = matrix[i][j], known = Numbers.known(c);
+    const text = `${names[i]} and ${names[j]}: ${known ? c.toFixed(3) : "not known"}`;
+    const tell = () => say(text);
+    const td = Table.number(c, known ? c.toFixed(2) : Numbers.none, { tabindex: i + j === 0 ? "0" : "-1", "data-row": i,
+      "data-column": j, title: text, focus: tell, pointerenter: tell });
+    td.style.setProperty("--strength", Math.round(50 * Math.abs(c || 0)) + "%");
+    td.classList.add("heat", c < 0 ? "negative" : "positive");
     return td;
   }
 
@@ -64,17 +62,21 @@ const Parameters = (() => {
     next.focus();
   }
 
+  function heatTable(names, matrix, say) {
+    const heads = names.map((n, k) => Dom.make("th", { scope: "col", title: n, "aria-label": n }, k + 1));
+    const row = (n, i) => Table.row({}, Table.head(Dom.name(n)), Dom.make("td", { class: "index" }, i + 1),
+      names.map((m, j) => heat(names, matrix, i, j, say)));
+    return Dom.make("div", { class: "scroll" }, Dom.make("table", { class: "heat-table", keydown: walk },
+      Dom.make("thead", {}, Table.row({}, Table.text(), Table.text(), heads)), Dom.make("tbody", {}, names.map(row))));
+  }
+
   function correlation(p) {
-    const matrix = p && p.correlation;
+    const matrix = p.correlation;
     if (!matrix || matrix.length < 2) return null;
     const reading = Dom.make("output", { id: "correlation-reading" }, "Point at a cell to read it in full.");
     const say = text => { reading.textContent = text; };
     return Dom.make("figure", { id: "correlation" }, Dom.make("h3", {}, "Correlation"),
-      Dom.make("p", { class: "hint" }, "Near ±1: the captures cannot tell these two apart. ", reading),
-      Dom.make("div", { class: "scroll" }, Dom.make("table", { class: "heat-table", keydown: walk },
-        Dom.make("thead", {}, Dom.make("tr", {}, Dom.make("td"), Dom.make("td"), p.name.map((n, k) => Dom.make("th", { scope: "col", title: n, "aria-label": n }, k + 1)))),
-        Dom.make("tbody", {}, p.name.map((n, i) => Dom.make("tr", {}, Dom.make("th", { scope: "row" }, Dom.name(n)), Dom.make("td", { class: "index" }, i + 1),
-          p.name.map((m, j) => heat(p.name, matrix, i, j, say))))))));
+      Dom.make("p", { class: "hint" }, "Near ±1: the captures cannot tell these two apart. ", reading), heatTable(p.name, matrix, say));
   }
 
   function section(story) {

@@ -9,8 +9,22 @@ const TimePlot = (() => {
     { key: "refined_residual", label: "residual of the refined model", on: true },
     { key: "loop_position", label: "position of the model in its own loop", on: false }];
 
+  const keysHelp = "Plots over time. Arrows move, plus and minus zoom, Home shows all.";
+  const handHelp = "Drag to zoom, shift-drag or two fingers to pan, Ctrl and wheel to zoom, double click for all.";
+
   // Outlives the section, which the studio builds anew with every story.
   const kept = { file: null, windows: {}, on: Object.fromEntries(switches.map(s => [s.key, s.on])) };
+
+  // Those on the page; a graph listens to the window until it is told to stop.
+  let alive = [];
+
+  function replace(strips) {
+    alive.filter(s => s.graph).forEach(s => s.graph.destroy());
+    alive = strips;
+  }
+
+  // Draws the strips in other colours, or with other tracks.
+  let themed = () => {};
 
   function track(capture, key, name, style) {
     let decoded;
@@ -93,18 +107,19 @@ const TimePlot = (() => {
     }));
   }
 
-  function worstList(capture, view) {
+  function worstButton(w, k, view) {
+    const margin = Math.max(0.5 * (w.to_s - w.from_s), 20 * view.full.step);
+    const instant = t => Numbers.seconds(t, w.to_s - w.from_s);
+    const share = `${Numbers.percent(w.residual_share)} of the residual on ${Numbers.percent(w.sample_share)} of the samples`;
+    return Dom.make("button", { type: "button", id: "worst-" + (k + 1), "data-from": w.from_s, "data-to": w.to_s,
+      click: () => view.set(w.from_s - margin, w.to_s + margin) },
+    Dom.make("b", {}, w.what), Dom.make("span", {}, `${instant(w.from_s)} … ${instant(w.to_s)} s`), Dom.make("span", {}, share));
+  }
+
+  function worstList(view) {
     if (!view.bands.length) return null;
-    const go = w => {
-      const margin = Math.max(0.5 * (w.to_s - w.from_s), 20 * view.full.step);
-      view.set(w.from_s - margin, w.to_s + margin);
-    };
     return Dom.make("div", { class: "worst" }, Dom.make("h3", {}, "Where most of the residual is"),
-      Dom.make("ol", {}, view.bands.map((w, k) => Dom.make("li", {},
-        Dom.make("button", { type: "button", id: "worst-" + (k + 1), "data-from": w.from_s, "data-to": w.to_s, click: () => go(w) },
-          Dom.make("b", {}, w.what),
-          Dom.make("span", {}, `${Numbers.seconds(w.from_s, w.to_s - w.from_s)} … ${Numbers.seconds(w.to_s, w.to_s - w.from_s)} s`),
-          Dom.make("span", {}, `${Numbers.percent(w.residual_share)} of the residual on ${Numbers.percent(w.sample_share)} of the samples`))))));
+      Dom.make("ol", {}, view.bands.map((w, k) => Dom.make("li", {}, worstButton(w, k, view)))));
   }
 
   // A capture is built once it has a width; a graph cannot be drawn without.
@@ -120,45 +135,49 @@ const TimePlot = (() => {
     return rebuild;
   }
 
-  function panel(capture, unit, onTheme) {
+  // What the window shows, as text.
+  function windowText() {
+    const span = Dom.make("span", { id: "time-window", class: "number" });
+    const tell = (view, t = null) => {
+      const wide = view.to - view.from;
+      const cursor = t === null ? "" : `, cursor ${Numbers.seconds(t, wide / 100)} s`;
+      span.textContent = `${Numbers.seconds(view.from, wide)} … ${Numbers.seconds(view.to, wide)} s${cursor}`;
+      span.dataset.from = view.from;
+      span.dataset.to = view.to;
+    };
+    return { span, tell };
+  }
+
+  function panel(capture, unit) {
     const strips = stripsOf(capture, unit);
     replace(strips);
-    const span = Dom.make("span", { id: "time-window", class: "number" });
-    const tell = (v, t = null) => {
-      span.textContent = `${Numbers.seconds(v.from, v.to - v.from)} … ${Numbers.seconds(v.to, v.to - v.from)} s`
-        + (t === null ? "" : `, cursor ${Numbers.seconds(t, (v.to - v.from) / 100)} s`);
-      span.dataset.from = v.from;
-      span.dataset.to = v.to;
-    };
+    const { span, tell } = windowText();
     const view = viewOf(capture, strips, tell);
-    const plots = Dom.make("div", { id: "time-plots", class: "strips", tabindex: "0", role: "group",
-      "aria-label": "Plots over time. Arrows move, plus and minus zoom, Home shows all." },
-      strips.map(s => s.box), Dom.make("p", { class: "axis-title under", "data-axis": "x", "data-unit": "s" }, "time, s"));
+    tell(view);
+    const under = Dom.make("p", { class: "axis-title under", "data-axis": "x", "data-unit": "s" }, "time, s");
+    const plots = Dom.make("div", { id: "time-plots", class: "strips", tabindex: "0", role: "group", "aria-label": keysHelp },
+      strips.map(s => s.box), under);
     strips.forEach(s => Gestures.attach(s, view));
     Gestures.attachKeys(plots, view);
-    const rebuild = whenWide(plots, strips, view);
-    onTheme(rebuild);
-    tell(view);
-    return [Dom.make("div", { class: "controls" }, buttons(view), span, toggles(capture, rebuild)), plots,
-      Dom.make("p", { class: "hint" }, "Drag to zoom, shift-drag or two fingers to pan, Ctrl and wheel to zoom, double click for all."),
-      worstList(capture, view)];
+    themed = whenWide(plots, strips, view);
+    return [Dom.make("div", { class: "controls" }, buttons(view), span, toggles(capture, themed)), plots,
+      Dom.make("p", { class: "hint" }, handHelp), worstList(view)];
+  }
+
+  // Without the folder, where that still tells them apart.
+  function shortNames(captures) {
+    const short = captures.map(c => c.file.split(/[\\/]/).pop());
+    return new Set(short).size === short.length ? short : captures.map(c => c.file);
   }
 
   function tabs(captures, chosen, choose) {
     if (captures.length < 2) return null;
+    const names = shortNames(captures);
     return Dom.make("div", { class: "tabs", role: "group", "aria-label": "captures" }, captures.map((c, k) =>
-      Dom.make("button", { type: "button", id: "capture-tab-" + k, "aria-pressed": String(c === chosen), click: () => choose(c) }, c.file)));
+      Dom.make("button", { type: "button", id: "capture-tab-" + k, title: c.file, "aria-pressed": String(c === chosen),
+        click: () => choose(c) }, names[k])));
   }
 
-  // Those on the page; a graph listens to the window until it is told to stop.
-  let alive = [];
-
-  function replace(strips) {
-    alive.filter(s => s.graph).forEach(s => s.graph.destroy());
-    alive = strips;
-  }
-
-  let themed = () => {};
   Theme.onChange(() => themed());
 
   function section(story) {
@@ -167,7 +186,7 @@ const TimePlot = (() => {
     const place = Dom.make("div", {});
     const choose = capture => {
       kept.file = capture.file;
-      Dom.refill(place, tabs(captures, capture, choose), panel(capture, story.unit, rebuild => { themed = rebuild; }));
+      Dom.refill(place, tabs(captures, capture, choose), panel(capture, story.unit));
     };
     choose(captures.find(c => c.file === kept.file) || captures[0]);
     const band = captures[0].band_Hz;

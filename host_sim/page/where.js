@@ -2,6 +2,9 @@
 "use strict";
 
 const Where = (() => {
+  const howToRead = "Bar: share of the residual's power. Mark: share of the samples. " +
+    "A bar beyond its mark is a place where the model fails.";
+
   function meanBars(f, bins) {
     const parts = [];
     for (const b of bins) {
@@ -48,18 +51,14 @@ const Where = (() => {
 
   function shareRow(row, group) {
     const place = row.regime.startsWith(group + " ") ? row.regime.slice(group.length + 1) : row.regime;
-    return Dom.make("tr", { "data-regime": row.regime }, Dom.make("th", { scope: "row" }, place),
-      Dom.make("td", { class: "bar-cell" }, shareBar(row)),
-      Dom.make("td", { class: "number", "data-value": row.residual_share }, Numbers.percent(row.residual_share)),
-      Dom.make("td", { class: "number", "data-value": row.sample_share }, Numbers.percent(row.sample_share)));
+    const figure = v => Table.number(v, Numbers.percent(v));
+    return Table.row({ "data-regime": row.regime }, Table.head(place), Dom.make("td", { class: "bar-cell" }, shareBar(row)),
+      figure(row.residual_share), figure(row.sample_share));
   }
 
   function shareTable(group, rows) {
-    return Dom.make("table", { class: "shares", "data-group": group }, Dom.make("thead", {}, Dom.make("tr", {},
-      Dom.make("th", { scope: "col" }, group), Dom.make("th", { class: "bar-cell", "aria-label": "bar" }),
-      Dom.make("th", { scope: "col", class: "number" }, "residual"),
-      Dom.make("th", { scope: "col", class: "number" }, group === "frequency" ? "band" : "samples"))),
-    Dom.make("tbody", {}, rows.map(r => shareRow(r, group))));
+    const heads = [group, "\u00a0", ["residual"], [group === "frequency" ? "band" : "samples"]];
+    return Table.make({ class: "shares", "data-group": group }, heads, rows.map(r => shareRow(r, group)));
   }
 
   // What the scatters show already is folded.
@@ -70,10 +69,10 @@ const Where = (() => {
     const drawn = new Set((story.against || []).map(a => a.variable));
     const table = g => shareTable(g, rows.filter(r => r.group === g));
     const folded = groups.filter(g => drawn.has(g));
-    return [Dom.make("h3", {}, "Share of the residual by regime"),
-      Dom.make("p", { class: "hint" }, "Bar: share of the residual's power. Mark: share of the samples. A bar beyond its mark is a place where the model fails."),
-      Dom.make("div", { class: "share-tables" }, groups.filter(g => !drawn.has(g)).map(table)),
-      folded.length ? Dom.fold("by-value", "By value of " + folded.join(", "), Dom.make("div", { class: "share-tables" }, folded.map(table))) : null];
+    const tables = list => Dom.make("div", { class: "share-tables" }, list.map(table));
+    return [Dom.make("h3", {}, "Share of the residual by regime"), Dom.make("p", { class: "hint" }, howToRead),
+      tables(groups.filter(g => !drawn.has(g))),
+      folded.length ? Dom.fold("by-value", "By value of " + folded.join(", "), tables(folded)) : null];
   }
 
   function section(story) {
