@@ -3,15 +3,26 @@
 
 const Provenance = (() => {
   function files(all) {
-    return Table.wide({ id: "files" }, ["file", ["size"], "sha256"], all.map(f => Table.row({ "data-file": f.file }, Table.head(f.file),
-      Table.number(f.bytes, Numbers.bytes(f.bytes)), Table.text(Dom.make("code", { class: "hash" }, f.sha256)))));
+    return Table.wide(
+        {id: "files"}, ["file", ["size"], "sha256"],
+        all.map(
+            f => Table.row(
+                {"data-file": f.file}, Table.head(f.file),
+                Table.number(f.bytes, Numbers.bytes(f.bytes)),
+                Table.text(Dom.make("code", {class: "hash"}, f.sha256)))));
   }
 
   function captures(all) {
-    const heads = ["capture", ["rows"], ["duration, s"], ["sample time, s"], ["band, Hz"], "columns"];
+    const heads =
+        ["capture", ["rows"], ["duration, s"], ["sample time, s"], ["band, Hz"], "columns"];
     const figure = (v, digits) => Table.number(v, Numbers.significant(v, digits));
-    return Table.wide({ id: "capture-table" }, heads, all.map(c => Table.row({ "data-file": c.file }, Table.head(c.file), figure(c.rows, 9),
-      figure(c.duration_s), figure(c.sample_time_s), figure(c.band_Hz, 3), Table.text((c.columns || []).join(", ")))));
+    return Table.wide(
+        {id: "capture-table"}, heads,
+        all.map(
+            c => Table.row(
+                {"data-file": c.file}, Table.head(c.file), figure(c.rows, 9), figure(c.duration_s),
+                figure(c.sample_time_s), figure(c.band_Hz, 3),
+                Table.text((c.columns || []).join(", ")))));
   }
 
   function model(id, title, toml) {
@@ -22,11 +33,13 @@ const Provenance = (() => {
     const p = story.provenance;
     if (!p) return null;
     const commands = (p.commands || []).map((c, k) => Dom.block("command-" + (k + 1), c));
-    return Dom.section("provenance", "Provenance", `${p.program} ${p.version}, ${p.date}`,
-      files(p.files || []), captures(story.captures || []),
-      commands.length ? [Dom.make("h3", {}, "To repeat it"), commands] : null,
-      model("model-toml", "The model", story.model_toml), model("refined-toml", "The refined model", story.refined_toml));
+    return Dom.section(
+        "provenance", "Provenance", `${p.program} ${p.version}, ${p.date}`, files(p.files || []),
+        captures(story.captures || []),
+        commands.length ? [Dom.make("h3", {}, "To repeat it"), commands] : null,
+        model("model-toml", "The model", story.model_toml),
+        model("refined-toml", "The refined model", story.refined_toml));
   }
 
-  return { section };
+  return {section};
 })();

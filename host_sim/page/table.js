@@ -2,20 +2,25 @@
 "use strict";
 
 const Table = (() => {
-  const head = text => Dom.make("th", { scope: "row" }, text);
+  const head = text => Dom.make("th", {scope: "row"}, text);
 
   const text = (...content) => Dom.make("td", {}, ...content);
 
   function number(value, shown, attributes) {
-    return Dom.make("td", { class: "number", "data-value": value, ...attributes }, shown);
+    return Dom.make("td", {class: "number", "data-value": value, ...attributes}, shown);
   }
 
   const row = (attributes, ...cells) => Dom.make("tr", attributes, ...cells);
 
   // Heads: texts; of a column of numbers in a list of its own: ["size"].
   function heading(heads) {
-    return Dom.make("thead", {}, Dom.make("tr", {}, heads.filter(Boolean).map(h => Array.isArray(h)
-      ? Dom.make("th", { scope: "col", class: "number" }, h) : Dom.make("th", { scope: "col" }, h))));
+    return Dom.make(
+        "thead", {},
+        Dom.make(
+            "tr", {},
+            heads.filter(Boolean).map(
+                h => Array.isArray(h) ? Dom.make("th", {scope: "col", class: "number"}, h) :
+                                        Dom.make("th", {scope: "col"}, h))));
   }
 
   function make(attributes, heads, rows) {
@@ -24,8 +29,8 @@ const Table = (() => {
 
   // One that may be wider than the page.
   function wide(attributes, heads, rows) {
-    return Dom.make("div", { class: "scroll" }, make(attributes, heads, rows));
+    return Dom.make("div", {class: "scroll"}, make(attributes, heads, rows));
   }
 
-  return { head, text, number, row, make, wide };
+  return {head, text, number, row, make, wide};
 })();

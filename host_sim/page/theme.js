@@ -28,5 +28,5 @@ const Theme = (() => {
     return getComputedStyle(root).getPropertyValue("--" + name).trim();
   }
 
-  return { start, colour, onChange: listener => listeners.push(listener) };
+  return {start, colour, onChange: listener => listeners.push(listener)};
 })();
