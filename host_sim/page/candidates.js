@@ -3,9 +3,8 @@
 
 const Candidates = (() => {
   const atLeast = 4, likely = 0.001;
-  const lede =
-      "Every effect of the catalogue was fitted together with all numbers of the model, and judged on data " +
-      "that it was not fitted to.";
+  const lede = "Every effect of the catalogue was fitted together with all numbers of the model, " +
+      "and judged on data that it was not fitted to.";
 
   function probabilityBar(c) {
     return Dom.make(
@@ -35,7 +34,7 @@ const Candidates = (() => {
                 ([name, p]) => Table.row(
                     {"data-parameter": name}, Table.head(Dom.name(name)),
                     Table.number(p.value, Numbers.withStd(p.value, p.std), {"data-std": p.std}),
-                    Dom.make("td", {class: "unit"}, Numbers.unit(p.unit))))) :
+                    Table.unit(p.unit)))) :
         null;
   }
 

@@ -20,10 +20,16 @@ const Head = (() => {
 
   function after(d, r) {
     const rungs = r ? r.ladder : [];
-    if (rungs.length > 1) return {after: rungs[rungs.length - 1].torque_error, by: "refined model"};
+    if (rungs.length > 1)
+      return {
+        after: rungs[rungs.length - 1].torque_error,
+        by: "refined model",
+        taken: "what was added"
+      };
     const best = d && d.candidates[0];
     const found = best && (d.verdict === "missing" || d.verdict === "ambiguous");
-    return found ? {after: best.error_after, by: "with " + best.effect} : {after: null, by: ""};
+    return found ? {after: best.error_after, by: "with " + best.effect, taken: best.effect} :
+                   {after: null, by: ""};
   }
 
   function figure(id, name, share, note, style) {
@@ -37,7 +43,7 @@ const Head = (() => {
     const width = Math.max(0, to - from);
     return [
       Dom.svg("rect", {class: style, x: from, y: 2, width, height: 20}),
-      width > 8 * name.length ?
+      width > 16 + 6.5 * name.length ?
           Dom.svg("text", {class: "inside " + style, x: from + 8, y: 16}, name) :
           null
     ];
@@ -79,9 +85,8 @@ const Head = (() => {
     return [
       part("below-floor", 0, floor, "noise"),
       left > 0 ? part("left-over", floor, X(left), "still unexplained") : null,
-      e.after > 0 && e.now > 0 ?
-          part("taken", X(e.after), X(e.now), "explained by what was added") :
-          null
+      e.after > 0 && e.now > 0 ? part("taken", X(e.after), X(e.now), "explained by " + e.taken) :
+                                 null
     ];
   }
 

@@ -48,8 +48,7 @@ const Parameters = (() => {
       const old = of(before, name), found = of(after, name), last = found || old;
       return Table.row(
           {"data-parameter": name}, Table.head(Dom.name(name)), cell("before", old),
-          after.length > 0 && cell("after", found),
-          Dom.make("td", {class: "unit"}, Numbers.unit(last.unit)),
+          after.length > 0 && cell("after", found), Table.unit(last.unit),
           Table.number(last.believed, Numbers.significant(last.believed)),
           Table.number(null, bounds(last)), Table.text(flags(last)));
     }));

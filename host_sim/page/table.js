@@ -10,6 +10,9 @@ const Table = (() => {
     return Dom.make("td", {class: "number", "data-value": value, ...attributes}, shown);
   }
 
+  // A unit may be anything that a file says; what does not fit is in the title.
+  const unit = u => Dom.make("td", {class: "unit", title: u}, Numbers.unit(u));
+
   const row = (attributes, ...cells) => Dom.make("tr", attributes, ...cells);
 
   // Heads: texts; of a column of numbers in a list of its own: ["size"].
@@ -32,5 +35,5 @@ const Table = (() => {
     return Dom.make("div", {class: "scroll"}, make(attributes, heads, rows));
   }
 
-  return {head, text, number, row, make, wide};
+  return {head, text, number, unit, row, make, wide};
 })();
