@@ -10,7 +10,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-SPIKE, ROWS, STEP = 61803, 100000, 1e-3
+SPIKE, ROWS, STEP = 61813, 100000, 1e-3
 
 # Dark pixels in the topmost eighth of the torque plot, right of its axis.
 INK_AT_TOP = """
