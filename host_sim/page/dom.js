@@ -8,8 +8,10 @@ const Dom = (() => {
   function dress(element, attributes) {
     for (const [name, value] of Object.entries(attributes || {})) {
       if (value === null || value === undefined || value === false) continue;
-      if (typeof value === "function") element.addEventListener(name, value);
-      else element.setAttribute(name, value === true ? "" : value);
+      if (typeof value === "function")
+        element.addEventListener(name, value);
+      else
+        element.setAttribute(name, value === true ? "" : value);
     }
     return element;
   }
@@ -65,8 +67,8 @@ const Dom = (() => {
 
   // A box that is drawn for its width, when it has one, and again when that changes.
   function drawing(attributes, render) {
-    const box = make("div", { ...attributes, class: "drawing " + (attributes.class || "") });
-    drawings.set(box, { render, width: 0 });
+    const box = make("div", {...attributes, class: "drawing " + (attributes.class || "")});
+    drawings.set(box, {render, width: 0});
     observer.observe(box);
     return box;
   }
@@ -76,7 +78,7 @@ const Dom = (() => {
     try {
       await navigator.clipboard.writeText(text);
     } catch (refused) {
-      const field = make("textarea", { class: "off-screen" });
+      const field = make("textarea", {class: "off-screen"});
       field.value = text;
       document.body.append(field);
       field.select();
@@ -86,11 +88,13 @@ const Dom = (() => {
   }
 
   function copyButton(id, text) {
-    const button = make("button", { id, type: "button", class: "quiet", "data-copy": true }, "Copy");
+    const button = make("button", {id, type: "button", class: "quiet", "data-copy": true}, "Copy");
     button.addEventListener("click", async () => {
       await copy(text);
       button.textContent = "Copied";
-      setTimeout(() => { button.textContent = "Copy"; }, 1500);
+      setTimeout(() => {
+        button.textContent = "Copy";
+      }, 1500);
     });
     return button;
   }
@@ -102,23 +106,25 @@ const Dom = (() => {
 
   // Text to take away, with its button.
   function block(id, text) {
-    return make("div", { class: "block" }, copyButton(id + "-copy", text),
-      make("pre", { id, tabindex: "0" }, text));
+    return make(
+        "div", {class: "block"}, copyButton(id + "-copy", text),
+        make("pre", {id, tabindex: "0"}, text));
   }
 
   function fold(id, title, ...content) {
-    return make("details", { id }, make("summary", {}, title), ...content);
+    return make("details", {id}, make("summary", {}, title), ...content);
   }
 
   function section(id, title, lede, ...content) {
-    return make("section", { id, "aria-labelledby": id + "-title" },
-      make("h2", { id: id + "-title" }, title), lede && make("p", { class: "lede" }, lede), ...content);
+    return make(
+        "section", {id, "aria-labelledby": id + "-title"}, make("h2", {id: id + "-title"}, title),
+        lede && make("p", {class: "lede"}, lede), ...content);
   }
 
   // A number with its exact value beside it, for whoever reads the page by program.
   function value(id, number, text, attributes) {
-    return make("span", { id, class: "number", "data-value": number, ...attributes }, text);
+    return make("span", {id, class: "number", "data-value": number, ...attributes}, text);
   }
 
-  return { make, svg, refill, list, drawing, copyButton, block, fold, section, value, name };
+  return {make, svg, refill, list, drawing, copyButton, block, fold, section, value, name};
 })();

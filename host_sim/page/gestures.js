@@ -1,9 +1,9 @@
-// Drag zooms, shift-drag or two fingers pan (and pinch), ctrl-wheel zooms, double click resets; with the
-// keyboard: arrows, + and -, Home.
+// Drag zooms, shift-drag or two fingers pan (and pinch), ctrl-wheel zooms, double click resets;
+// with the keyboard: arrows, + and -, Home.
 "use strict";
 
 const Gestures = (() => {
-  const least = 4; // pixels: less is a click
+  const least = 4;  // pixels: less is a click
 
   function instant(strip, event) {
     const box = strip.canvas.getBoundingClientRect();
@@ -30,7 +30,8 @@ const Gestures = (() => {
     const zoom = before[1] / after[1];
     const anchor = strip.graph.toDataXCoord(before[0] - left);
     const moved = (before[0] - after[0]) * perPixel;
-    view.set(anchor + (view.from - anchor) * zoom + moved, anchor + (view.to - anchor) * zoom + moved);
+    view.set(
+        anchor + (view.from - anchor) * zoom + moved, anchor + (view.to - anchor) * zoom + moved);
   }
 
   function drag(strip, view, start, event) {
@@ -58,16 +59,24 @@ const Gestures = (() => {
       pointers.set(event.pointerId, event);
       strip.body.setPointerCapture(event.pointerId);
       strip.selection.hidden = true;
-      start = pointers.size > 1 ? null :
-        { t: instant(strip, event), x: event.clientX, from: view.from, to: view.to, pan: event.shiftKey, wide: false };
+      start = pointers.size > 1 ? null : {
+        t: instant(strip, event),
+        x: event.clientX,
+        from: view.from,
+        to: view.to,
+        pan: event.shiftKey,
+        wide: false
+      };
     });
     strip.body.addEventListener("pointermove", event => {
       view.point(instant(strip, event));
       if (!pointers.has(event.pointerId)) return;
       const before = pointers.size === 2 ? middleAndSpread(pointers) : null;
       pointers.set(event.pointerId, event);
-      if (before) pinch(strip, view, before, middleAndSpread(pointers));
-      else if (start) drag(strip, view, start, event);
+      if (before)
+        pinch(strip, view, before, middleAndSpread(pointers));
+      else if (start)
+        drag(strip, view, start, event);
     });
     const release = event => {
       pointers.delete(event.pointerId);
@@ -86,14 +95,22 @@ const Gestures = (() => {
       if (!event.ctrlKey) return;
       event.preventDefault();
       view.zoom(Math.exp(event.deltaY / 300), instant(strip, event));
-    }, { passive: false });
+    }, {passive: false});
   }
 
   function attachKeys(box, view) {
-    const keys = { ArrowLeft: () => view.move(-0.2), ArrowRight: () => view.move(0.2), "+": () => view.zoom(0.5),
-                   "=": () => view.zoom(0.5), "-": () => view.zoom(2), Home: () => view.reset() };
+    const keys = {
+      ArrowLeft: () => view.move(-0.2),
+      ArrowRight: () => view.move(0.2),
+      "+": () => view.zoom(0.5),
+      "=": () => view.zoom(0.5),
+      "-": () => view.zoom(2),
+      Home: () => view.reset()
+    };
     box.addEventListener("keydown", event => {
-      if (event.target !== box || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
+      if (event.target !== box || event.ctrlKey || event.altKey || event.metaKey ||
+          !keys[event.key])
+        return;
       event.preventDefault();
       keys[event.key]();
     });
@@ -104,5 +121,5 @@ const Gestures = (() => {
     attachWheel(strip, view);
   }
 
-  return { attach, attachKeys };
+  return {attach, attachKeys};
 })();

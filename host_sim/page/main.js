@@ -4,6 +4,8 @@
 (() => {
   const mode = JSON.parse(document.getElementById("servoid-mode").textContent);
   Theme.start();
-  if (mode.mode === "studio") Studio.start();
-  else Story.tell(mode.story, null);
+  if (mode.mode === "studio")
+    Studio.start();
+  else
+    Story.tell(mode.story, null);
 })();

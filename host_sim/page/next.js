@@ -4,15 +4,20 @@
 const Next = (() => {
   function experiment(next) {
     if (!next) return null;
-    return [Dom.make("h3", {}, "Experiment"), Dom.make("p", {}, next.reason), Dom.block("next-experiment", next.experiment)];
+    return [
+      Dom.make("h3", {}, "Experiment"), Dom.make("p", {}, next.reason),
+      Dom.block("next-experiment", next.experiment)
+    ];
   }
 
   function cannotShow(all) {
     if (!all.length) return null;
-    return [Dom.make("h3", {}, "What these captures cannot show"), Dom.make("div", { class: "scroll" }, Dom.make("table", { id: "cannot-show" },
-      Dom.make("thead", {}, Dom.make("tr", {}, ["effect", "why", "record instead"].map(h => Dom.make("th", { scope: "col" }, h)))),
-      Dom.make("tbody", {}, all.map(u => Dom.make("tr", { "data-effect": u.effect }, Dom.make("th", { scope: "row" }, u.effect),
-        Dom.make("td", {}, u.why), Dom.make("td", {}, u.record))))))];
+    const row = u => Table.row(
+        {"data-effect": u.effect}, Table.head(u.effect), Table.text(u.why), Table.text(u.record));
+    return [
+      Dom.make("h3", {}, "What these captures cannot show"),
+      Table.wide({id: "cannot-show"}, ["effect", "why", "record instead"], all.map(row))
+    ];
   }
 
   // Of the refined model where there is one: its gaps are those that are left.
@@ -21,8 +26,10 @@ const Next = (() => {
     if (!last.length && !story.advice) return null;
     const next = last.map(x => x.next_experiment).find(Boolean);
     const gaps = last.length ? last[0].cannot_show || [] : [];
-    return Dom.section("next", "Record next", null, Dom.make("p", { id: "advice", class: "advice" }, story.advice), experiment(next), cannotShow(gaps));
+    return Dom.section(
+        "next", "Record next", null, Dom.make("p", {id: "advice", class: "advice"}, story.advice),
+        experiment(next), cannotShow(gaps));
   }
 
-  return { section };
+  return {section};
 })();

@@ -71,5 +71,5 @@ const Numbers = (() => {
     return u === "1" || !u ? "" : u;
   }
 
-  return { none, known, significant, percent, probability, withStd, seconds, bytes, unit };
+  return {none, known, significant, percent, probability, withStd, seconds, bytes, unit};
 })();

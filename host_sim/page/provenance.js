@@ -3,19 +3,26 @@
 
 const Provenance = (() => {
   function files(all) {
-    return Dom.make("div", { class: "scroll" }, Dom.make("table", { id: "files" },
-      Dom.make("thead", {}, Dom.make("tr", {}, ["file", "size", "sha256"].map(h => Dom.make("th", { scope: "col" }, h)))),
-      Dom.make("tbody", {}, all.map(f => Dom.make("tr", { "data-file": f.file }, Dom.make("th", { scope: "row" }, f.file),
-        Dom.make("td", { class: "number" }, Numbers.bytes(f.bytes)), Dom.make("td", {}, Dom.make("code", { class: "hash" }, f.sha256)))))));
+    return Table.wide(
+        {id: "files"}, ["file", ["size"], "sha256"],
+        all.map(
+            f => Table.row(
+                {"data-file": f.file}, Table.head(f.file),
+                Table.number(f.bytes, Numbers.bytes(f.bytes)),
+                Table.text(Dom.make("code", {class: "hash"}, f.sha256)))));
   }
 
   function captures(all) {
-    return Dom.make("div", { class: "scroll" }, Dom.make("table", { id: "capture-table" },
-      Dom.make("thead", {}, Dom.make("tr", {}, [["capture"], ["rows", 1], ["duration, s", 1], ["sample time, s", 1], ["band, Hz", 1], ["columns"]].map(([h, number]) =>
-        Dom.make("th", { scope: "col", class: number ? "number" : "" }, h)))),
-      Dom.make("tbody", {}, all.map(c => Dom.make("tr", { "data-file": c.file }, Dom.make("th", { scope: "row" }, c.file),
-        [c.rows, Numbers.significant(c.duration_s), Numbers.significant(c.sample_time_s), Numbers.significant(c.band_Hz, 3)].map(v => Dom.make("td", { class: "number" }, v)),
-        Dom.make("td", {}, (c.columns || []).join(", ")))))));
+    const heads =
+        ["capture", ["rows"], ["duration, s"], ["sample time, s"], ["band, Hz"], "columns"];
+    const figure = (v, digits) => Table.number(v, Numbers.significant(v, digits));
+    return Table.wide(
+        {id: "capture-table"}, heads,
+        all.map(
+            c => Table.row(
+                {"data-file": c.file}, Table.head(c.file), figure(c.rows, 9), figure(c.duration_s),
+                figure(c.sample_time_s), figure(c.band_Hz, 3),
+                Table.text((c.columns || []).join(", ")))));
   }
 
   function model(id, title, toml) {
@@ -26,11 +33,13 @@ const Provenance = (() => {
     const p = story.provenance;
     if (!p) return null;
     const commands = (p.commands || []).map((c, k) => Dom.block("command-" + (k + 1), c));
-    return Dom.section("provenance", "Provenance", `${p.program} ${p.version}, ${p.date}`,
-      files(p.files || []), captures(story.captures || []),
-      commands.length ? [Dom.make("h3", {}, "To repeat it"), commands] : null,
-      model("model-toml", "The model", story.model_toml), model("refined-toml", "The refined model", story.refined_toml));
+    return Dom.section(
+        "provenance", "Provenance", `${p.program} ${p.version}, ${p.date}`, files(p.files || []),
+        captures(story.captures || []),
+        commands.length ? [Dom.make("h3", {}, "To repeat it"), commands] : null,
+        model("model-toml", "The model", story.model_toml),
+        model("refined-toml", "The refined model", story.refined_toml));
   }
 
-  return { section };
+  return {section};
 })();

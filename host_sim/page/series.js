@@ -17,8 +17,16 @@ const Series = (() => {
     if (!s) return null;
     const low = int16(s.low), high = s.high ? int16(s.high) : low;
     const start = s.start_s + s.step_s * (s.bucket - 1) / (2 * s.bucket);
-    return { start, step: s.step_s, count: low.length, low, high, offset: s.offset, scale: s.scale,
-             end: start + s.step_s * Math.max(0, low.length - 1) };
+    return {
+      start,
+      step: s.step_s,
+      count: low.length,
+      low,
+      high,
+      offset: s.offset,
+      scale: s.scale,
+      end: start + s.step_s * Math.max(0, low.length - 1)
+    };
   }
 
   function clamp(k, count) {
@@ -33,7 +41,8 @@ const Series = (() => {
     const first = clamp(Math.ceil((from - s.start) / s.step - 1e-9), s.count);
     const last = clamp(Math.floor((to - s.start) / s.step + 1e-9) + 1, s.count);
     for (let k = first; k < last; ++k) {
-      const c = Math.min(columns - 1, Math.max(0, Math.floor((s.start + k * s.step - from) * perSecond)));
+      const c =
+          Math.min(columns - 1, Math.max(0, Math.floor((s.start + k * s.step - from) * perSecond)));
       if (s.low[k] === noValue) {
         if (seen[c] === 0) seen[c] = 1;
         continue;
@@ -42,7 +51,7 @@ const Series = (() => {
       if (s.low[k] < least[c]) least[c] = s.low[k];
       if (s.high[k] > most[c]) most[c] = s.high[k];
     }
-    return { least, most, seen, before: first - 1, after: last };
+    return {least, most, seen, before: first - 1, after: last};
   }
 
   // One value just outside the window, so that lines run on to the edge of the plot.
@@ -67,8 +76,8 @@ const Series = (() => {
     return Math.abs(previous - low) <= Math.abs(previous - high) ? [low, high] : [high, low];
   }
 
-  // Rows for dygraphs: time and one value a track, two rows a column: no peak is ever lost. null: no
-  // sample in this column, the line goes on; NaN: a gap.
+  // Rows for dygraphs: time and one value a track, two rows a column: no peak is ever lost. null:
+  // no sample in this column, the line goes on; NaN: a gap.
   function rows(tracks, from, to, columns) {
     const found = tracks.map(s => extremes(s, from, to, columns));
     const out = outer(tracks, found, "before");
@@ -95,5 +104,5 @@ const Series = (() => {
     return [s.offset + s.scale * s.low[k], s.offset + s.scale * s.high[k]];
   }
 
-  return { decode, rows, at };
+  return {decode, rows, at};
 })();

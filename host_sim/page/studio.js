@@ -3,20 +3,21 @@
 
 const Studio = (() => {
   const boxes = {}, shown = {};
-  const chosen = { name: null }, typed = { text: null };
+  const chosen = {name: null}, typed = {text: null};
   let latest = null, storyRevision = null, serverError = null;
-  let unit = { torque: "N·m", position: "rad" }, floor = null;
+  let unit = {torque: "N·m", position: "rad"}, floor = null;
 
   // What somebody types is theirs until they leave the field.
   function remember(box) {
     const active = document.activeElement;
     if (!box.contains(active) || !active.id) return () => {};
-    const typing = active.type === "text" && active.value !== active.defaultValue ? active.value : null;
+    const typing =
+        active.type === "text" && active.value !== active.defaultValue ? active.value : null;
     return () => {
       const again = document.getElementById(active.id);
       if (!again) return;
       if (typing !== null) again.value = typing;
-      again.focus({ preventScroll: true });
+      again.focus({preventScroll: true});
     };
   }
 
@@ -51,7 +52,8 @@ const Studio = (() => {
 
   function connection(open, fault) {
     boxes.connection.dataset.state = open ? "open" : "lost";
-    boxes.connection.textContent = open ? "connected" : `connection lost, trying again (${fault.message})`;
+    boxes.connection.textContent =
+        open ? "connected" : `connection lost, trying again (${fault.message})`;
   }
 
   function panel(state) {
@@ -64,7 +66,9 @@ const Studio = (() => {
     keep("model", state.model, box => Terms.show(box, state.model, act));
     keep("effects", state.effects, () => Terms.effectChoice(state.effects, act, chosen));
     keep("next", [state.experiment, free], () => Actions.next(state.experiment, free, act));
-    keep("can", [state.can && [state.can.interface, state.can.running], state.experiment, free], () => Bus.view(state.can, state.experiment, free, act, typed));
+    keep(
+        "can", [state.can && [state.can.interface, state.can.running], state.experiment, free],
+        () => Bus.view(state.can, state.experiment, free, act, typed));
     keep("live", state.can, () => Bus.live(state.can, unit));
     keep("history", [state.history, floor], () => Actions.history(state.history, floor));
   }
@@ -84,31 +88,46 @@ const Studio = (() => {
     const story = await Server.story();
     unit = story.unit;
     floor = story.compare && story.compare.noise_floor;
-    Story.tell(story, effect => act("add", { effect }));
+    Story.tell(story, effect => act("add", {effect}));
     storyRevision = state.story_revision;
     panel(state);
   }
 
   function build() {
-    const box = (name, attributes, kind = "div") => { boxes[name] = Dom.make(kind, attributes); return boxes[name]; };
+    const box = (name, attributes, kind = "div") => {
+      boxes[name] = Dom.make(kind, attributes);
+      return boxes[name];
+    };
     const part = (title, ...content) => Dom.make("section", {}, Dom.make("h2", {}, title), content);
     const place = document.getElementById("studio");
     place.hidden = false;
     document.body.classList.add("studio");
-    Dom.refill(place, Dom.make("div", { id: "now" }, box("connection", { id: "connection", role: "status", "data-state": "open" }),
-      box("error", { id: "error", role: "alert", hidden: true }), box("actions", { id: "actions" }), box("busy", { id: "busy" })), Actions.downloads(),
-      part("Captures", box("captures", { id: "captures", class: "plain" }, "ul"), Captures.dropZone(send)),
-      part("Model", box("model", { id: "model" }), Dom.make("h3", {}, "Add an effect"), box("effects", { id: "effects" }), Terms.lawForm(act)),
-      box("next", { id: "next-step" }), box("can", { id: "can" }), box("live", { id: "live" }), box("history", { id: "history" }));
+    Dom.refill(
+        place,
+        Dom.make(
+            "div", {id: "now"},
+            box("connection", {id: "connection", role: "status", "data-state": "open"}),
+            box("error", {id: "error", role: "alert", hidden: true}),
+            box("actions", {id: "actions"}), box("busy", {id: "busy"})),
+        Actions.downloads(),
+        part(
+            "Captures", box("captures", {id: "captures", class: "plain"}, "ul"),
+            Captures.dropZone(send)),
+        part(
+            "Model", box("model", {id: "model"}), Dom.make("h3", {}, "Add an effect"),
+            box("effects", {id: "effects"}), Terms.lawForm(act)),
+        box("next", {id: "next-step"}), box("can", {id: "can"}), box("live", {id: "live"}),
+        box("history", {id: "history"}));
   }
 
   function start() {
     build();
-    ["dragover", "drop"].forEach(kind => window.addEventListener(kind, event => event.preventDefault()));
+    ["dragover", "drop"].forEach(
+        kind => window.addEventListener(kind, event => event.preventDefault()));
     Actions.keys(act, () => latest);
-    Server.follow({ changed, lost: fault => connection(false, fault), back: () => connection(true) });
+    Server.follow({changed, lost: fault => connection(false, fault), back: () => connection(true)});
     connection(true);
   }
 
-  return { start };
+  return {start};
 })();

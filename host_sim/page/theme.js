@@ -8,7 +8,11 @@ const Theme = (() => {
   let chosen = null;
 
   function apply() {
-    root.dataset.theme = chosen || (system.matches ? "dark" : "light");
+    wear(chosen || (system.matches ? "dark" : "light"));
+  }
+
+  function wear(theme) {
+    root.dataset.theme = theme;
     const button = document.getElementById("theme");
     button.textContent = root.dataset.theme === "dark" ? "Light" : "Dark";
     listeners.forEach(tell => tell());
@@ -20,6 +24,8 @@ const Theme = (() => {
       apply();
     });
     system.addEventListener("change", apply);
+    addEventListener("beforeprint", () => wear("light"));
+    addEventListener("afterprint", apply);
     apply();
   }
 
@@ -28,5 +34,5 @@ const Theme = (() => {
     return getComputedStyle(root).getPropertyValue("--" + name).trim();
   }
 
-  return { start, colour, onChange: listener => listeners.push(listener) };
+  return {start, colour, onChange: listener => listeners.push(listener)};
 })();

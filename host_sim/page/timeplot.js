@@ -4,107 +4,82 @@
 const TimePlot = (() => {
   // What is shown at first; the others wait for their switch.
   const switches = [
-    { key: "recorded_torque", label: "recorded torque, unfiltered", on: false },
-    { key: "refined_torque", label: "refined model", on: false },
-    { key: "refined_residual", label: "residual of the refined model", on: true },
-    { key: "loop_position", label: "position of the model in its own loop", on: false }];
+    {key: "recorded_torque", label: "recorded torque, unfiltered", on: false},
+    {key: "refined_torque", label: "refined model", on: false},
+    {key: "refined_residual", label: "residual of the refined model", on: true},
+    {key: "loop_position", label: "position of the model in its own loop", on: false}
+  ];
+
+  const keysHelp = "Plots over time. Arrows move, plus and minus zoom, Home shows all.";
+  const handHelp =
+      "Drag to zoom, shift-drag or two fingers to pan, Ctrl and wheel to zoom, double click for all.";
 
   // Outlives the section, which the studio builds anew with every story.
-  const kept = { file: null, windows: {}, on: Object.fromEntries(switches.map(s => [s.key, s.on])) };
+  const kept = {file: null, on: Object.fromEntries(switches.map(s => [s.key, s.on]))};
+
+  // Those on the page; a graph listens to the window until it is told to stop.
+  let alive = [];
+
+  function replace(strips) {
+    alive.filter(s => s.graph).forEach(s => s.graph.destroy());
+    alive = strips;
+  }
+
+  // Draws the strips in other colours, or with other tracks.
+  let themed = () => {};
 
   function track(capture, key, name, style) {
     let decoded;
     const source = capture.series[key];
-    return source && { key, name, style, decoded: () => decoded || (decoded = Series.decode(source)) };
+    return source &&
+        {key, name, style, decoded: () => decoded || (decoded = Series.decode(source))};
   }
 
   function stripsOf(capture, unit) {
     const tracks = (...specs) => specs.map(s => track(capture, ...s)).filter(Boolean);
     const specs = [
-      { key: "torque", name: "torque", unit: unit.torque, tracks: tracks(
-        ["recorded_torque", "recorded", "recorded"], ["torque", "measured", "measured"],
-        ["model_torque", "model", "model"], ["refined_torque", "refined model", "refined"]) },
-      { key: "residual", name: "residual", unit: unit.torque, tracks: tracks(
-        ["residual", "what the model leaves", "residual"], ["refined_residual", "what the refined model leaves", "refined"]) },
-      { key: "position", name: "position", unit: unit.position, tracks: tracks(
-        ["position", "measured", "measured"], ["loop_position", "model in its loop", "model"]) }];
+      {
+        key: "torque",
+        name: "torque",
+        unit: unit.torque,
+        tracks: tracks(
+            ["recorded_torque", "recorded", "recorded"], ["torque", "measured", "measured"],
+            ["model_torque", "model", "model"], ["refined_torque", "refined model", "refined"])
+      },
+      {
+        key: "residual",
+        name: "residual",
+        unit: unit.torque,
+        tracks: tracks(
+            ["residual", "what the model leaves", "residual"],
+            ["refined_residual", "what the refined model leaves", "refined"])
+      },
+      {
+        key: "position",
+        name: "position",
+        unit: unit.position,
+        tracks: tracks(
+            ["position", "measured", "measured"], ["loop_position", "model in its loop", "model"])
+      }
+    ];
     const there = specs.filter(s => s.tracks.length);
-    return there.map((s, k) => Strips.make({ ...s, last: k === there.length - 1 }));
-  }
-
-  function fullWindow(capture) {
-    const all = Object.values(capture.series).filter(Boolean);
-    const from = Math.min(...all.map(s => s.start_s));
-    const to = Math.max(...all.map(s => s.start_s + s.step_s * (s.count - 1)));
-    return { from, to: to > from ? to : from + 1, step: Math.min(...all.map(s => s.step_s / s.bucket)) };
+    return there.map((s, k) => Strips.make({...s, last: k === there.length - 1}));
   }
 
   const wanted = key => !(key in kept.on) || kept.on[key];
 
-  // The window on the time of one capture; whoever moves it moves all strips.
-  function viewOf(capture, strips, tell) {
-    const full = fullWindow(capture);
-    const before = kept.windows[capture.file];
-    const view = { ...full, ...before, bands: capture.worst || [], full };
-    view.set = (from, to) => {
-      const span = Math.min(full.to - full.from, Math.max(4 * full.step, to - from));
-      const middle = (from + to) / 2;
-      view.from = Math.min(full.to - span, Math.max(full.from, middle - span / 2));
-      view.to = view.from + span;
-      kept.windows[capture.file] = { from: view.from, to: view.to };
-      strips.forEach(s => Strips.show(s, view));
-      tell(view);
-    };
-    view.zoom = (factor, anchor = (view.from + view.to) / 2) =>
-      view.set(anchor + (view.from - anchor) * factor, anchor + (view.to - anchor) * factor);
-    view.move = share => {
-      const by = share * (view.to - view.from);
-      view.set(view.from + by, view.to + by);
-    };
-    view.reset = () => view.set(full.from, full.to);
-    view.point = t => {
-      strips.forEach(s => Strips.point(s, t));
-      tell(view, t);
-    };
-    return view;
-  }
-
-  function buttons(view) {
-    const button = (id, text, label, act) =>
-      Dom.make("button", { id, type: "button", "aria-label": label, title: label, click: act }, text);
-    return Dom.make("div", { class: "buttons", role: "group", "aria-label": "time window" },
-      button("zoom-in", "+", "zoom in", () => view.zoom(0.5)),
-      button("zoom-out", "−", "zoom out", () => view.zoom(2)),
-      button("pan-left", "←", "earlier", () => view.move(-0.25)),
-      button("pan-right", "→", "later", () => view.move(0.25)),
-      button("zoom-reset", "All", "all of the capture", () => view.reset()));
-  }
-
   // Only what the capture holds.
   function toggles(capture, rebuild) {
     const there = switches.filter(s => capture.series[s.key]);
-    return Dom.make("div", { class: "toggles" }, there.map(s => {
-      const box = Dom.make("input", { type: "checkbox", id: "show-" + s.key, checked: kept.on[s.key] });
+    return Dom.make("div", {class: "toggles"}, there.map(s => {
+      const box =
+          Dom.make("input", {type: "checkbox", id: "show-" + s.key, checked: kept.on[s.key]});
       box.addEventListener("change", () => {
         kept.on[s.key] = box.checked;
         rebuild();
       });
       return Dom.make("label", {}, box, " ", s.label);
     }));
-  }
-
-  function worstList(capture, view) {
-    if (!view.bands.length) return null;
-    const go = w => {
-      const margin = Math.max(0.5 * (w.to_s - w.from_s), 20 * view.full.step);
-      view.set(w.from_s - margin, w.to_s + margin);
-    };
-    return Dom.make("div", { class: "worst" }, Dom.make("h3", {}, "Where most of the residual is"),
-      Dom.make("ol", {}, view.bands.map((w, k) => Dom.make("li", {},
-        Dom.make("button", { type: "button", id: "worst-" + (k + 1), "data-from": w.from_s, "data-to": w.to_s, click: () => go(w) },
-          Dom.make("b", {}, w.what),
-          Dom.make("span", {}, `${Numbers.seconds(w.from_s, w.to_s - w.from_s)} … ${Numbers.seconds(w.to_s, w.to_s - w.from_s)} s`),
-          Dom.make("span", {}, `${Numbers.percent(w.residual_share)} of the residual on ${Numbers.percent(w.sample_share)} of the samples`))))));
   }
 
   // A capture is built once it has a width; a graph cannot be drawn without.
@@ -120,45 +95,51 @@ const TimePlot = (() => {
     return rebuild;
   }
 
-  function panel(capture, unit, onTheme) {
+  function panel(capture, unit) {
     const strips = stripsOf(capture, unit);
     replace(strips);
-    const span = Dom.make("span", { id: "time-window", class: "number" });
-    const tell = (v, t = null) => {
-      span.textContent = `${Numbers.seconds(v.from, v.to - v.from)} … ${Numbers.seconds(v.to, v.to - v.from)} s`
-        + (t === null ? "" : `, cursor ${Numbers.seconds(t, (v.to - v.from) / 100)} s`);
-      span.dataset.from = v.from;
-      span.dataset.to = v.to;
-    };
-    const view = viewOf(capture, strips, tell);
-    const plots = Dom.make("div", { id: "time-plots", class: "strips", tabindex: "0", role: "group",
-      "aria-label": "Plots over time. Arrows move, plus and minus zoom, Home shows all." },
-      strips.map(s => s.box), Dom.make("p", { class: "axis-title under", "data-axis": "x", "data-unit": "s" }, "time, s"));
+    const {span, tell} = TimeWindow.reading();
+    const view = TimeWindow.make(capture, strips, tell);
+    tell(view);
+    const under =
+        Dom.make("p", {class: "axis-title under", "data-axis": "x", "data-unit": "s"}, "time, s");
+    const plots = Dom.make(
+        "div",
+        {id: "time-plots", class: "strips", tabindex: "0", role: "group", "aria-label": keysHelp},
+        strips.map(s => s.box), under);
     strips.forEach(s => Gestures.attach(s, view));
     Gestures.attachKeys(plots, view);
-    const rebuild = whenWide(plots, strips, view);
-    onTheme(rebuild);
-    tell(view);
-    return [Dom.make("div", { class: "controls" }, buttons(view), span, toggles(capture, rebuild)), plots,
-      Dom.make("p", { class: "hint" }, "Drag to zoom, shift-drag or two fingers to pan, Ctrl and wheel to zoom, double click for all."),
-      worstList(capture, view)];
+    themed = whenWide(plots, strips, view);
+    return [
+      Dom.make(
+          "div", {class: "controls"}, TimeWindow.buttons(view), span, toggles(capture, themed)),
+      plots, Dom.make("p", {class: "hint"}, handHelp), Worst.list(view)
+    ];
+  }
+
+  // Without the folder, where that still tells them apart.
+  function shortNames(captures) {
+    const short = captures.map(c => c.file.split(/[\\/]/).pop());
+    return new Set(short).size === short.length ? short : captures.map(c => c.file);
   }
 
   function tabs(captures, chosen, choose) {
     if (captures.length < 2) return null;
-    return Dom.make("div", { class: "tabs", role: "group", "aria-label": "captures" }, captures.map((c, k) =>
-      Dom.make("button", { type: "button", id: "capture-tab-" + k, "aria-pressed": String(c === chosen), click: () => choose(c) }, c.file)));
+    const names = shortNames(captures);
+    return Dom.make(
+        "div", {class: "tabs", role: "group", "aria-label": "captures"},
+        captures.map(
+            (c, k) => Dom.make(
+                "button", {
+                  type: "button",
+                  id: "capture-tab-" + k,
+                  title: c.file,
+                  "aria-pressed": String(c === chosen),
+                  click: () => choose(c)
+                },
+                names[k])));
   }
 
-  // Those on the page; a graph listens to the window until it is told to stop.
-  let alive = [];
-
-  function replace(strips) {
-    alive.filter(s => s.graph).forEach(s => s.graph.destroy());
-    alive = strips;
-  }
-
-  let themed = () => {};
   Theme.onChange(() => themed());
 
   function section(story) {
@@ -167,13 +148,16 @@ const TimePlot = (() => {
     const place = Dom.make("div", {});
     const choose = capture => {
       kept.file = capture.file;
-      Dom.refill(place, tabs(captures, capture, choose), panel(capture, story.unit, rebuild => { themed = rebuild; }));
+      Dom.refill(place, tabs(captures, capture, choose), panel(capture, story.unit));
     };
     choose(captures.find(c => c.file === kept.file) || captures[0]);
     const band = captures[0].band_Hz;
-    return Dom.section("time", "Over time", "Measured torque and the model's, below it what the model leaves"
-      + (Numbers.known(band) ? `; both up to ${Numbers.significant(band, 3)} Hz.` : "."), place);
+    return Dom.section(
+        "time", "Over time",
+        "Measured torque and the model's, below it what the model leaves" +
+            (Numbers.known(band) ? `; both up to ${Numbers.significant(band, 3)} Hz.` : "."),
+        place);
   }
 
-  return { section };
+  return {section};
 })();

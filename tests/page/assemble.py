@@ -23,16 +23,22 @@ def escaped(mode):
 
 def assemble(mode):
     page = (PAGE / "page.html").read_text()
-    for place, text in (("@STYLE@", parts(".css")),
-                        ("@DYGRAPHS_CSS@", (DYGRAPHS / "dygraph.min.css").read_text()),
-                        ("@DYGRAPHS_JS@", (DYGRAPHS / "dygraph.min.js").read_text()),
-                        ("@SCRIPTS@", parts(".js")), ("@MODE_JSON@", escaped(mode))):
+    for place, text in (
+        ("@STYLE@", parts(".css")),
+        ("@DYGRAPHS_CSS@", (DYGRAPHS / "dygraph.min.css").read_text()),
+        ("@DYGRAPHS_JS@", (DYGRAPHS / "dygraph.min.js").read_text()),
+        ("@SCRIPTS@", parts(".js")),
+        ("@MODE_JSON@", escaped(mode)),
+    ):
         page = page.replace(place, text)
     return page
 
 
 if __name__ == "__main__":
     source, out = sys.argv[1:]
-    mode = {"mode": "studio"} if source == "--studio" else {
-        "mode": "report", "story": json.loads(pathlib.Path(source).read_text())}
+    mode = (
+        {"mode": "studio"}
+        if source == "--studio"
+        else {"mode": "report", "story": json.loads(pathlib.Path(source).read_text())}
+    )
     pathlib.Path(out).write_text(assemble(mode))

@@ -11,8 +11,14 @@ from selenium import webdriver
 from selenium.common.exceptions import NoSuchElementException, StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 
-FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
-         "--disable-dev-shm-usage", "--force-device-scale-factor=1"]
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-dev-shm-usage",
+    "--force-device-scale-factor=1",
+]
 
 
 @contextlib.contextmanager
@@ -30,10 +36,14 @@ def chromium():
 
 
 def look(driver, width, dark=False, height=1000):
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-        "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-        "features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
+    driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False},
+    )
+    driver.execute_cdp_cmd(
+        "Emulation.setEmulatedMedia",
+        {"features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]},
+    )
 
 
 @contextlib.contextmanager
@@ -53,17 +63,24 @@ def settle(driver):
     """Until what is to be drawn is drawn: plots appear two frames after they have a place."""
     driver.execute_async_script(
         "const done = arguments[0]; let n = 0;"
-        "const step = () => ++n < 6 ? requestAnimationFrame(step) : done(); step();")
+        "const step = () => ++n < 6 ? requestAnimationFrame(step) : done(); step();"
+    )
 
 
 def complaints(driver):
-    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+    return [
+        entry["message"]
+        for entry in driver.get_log("browser")
+        if entry["level"] in ("SEVERE", "WARNING")
+    ]
 
 
 def requests(driver):
     """Addresses that the page asked for, data within the page aside."""
     events = (json.loads(e["message"])["message"] for e in driver.get_log("performance"))
-    urls = (e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent")
+    urls = (
+        e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"
+    )
     return [url for url in urls if not url.startswith("data:")]
 
 

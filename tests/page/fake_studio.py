@@ -16,8 +16,17 @@ import synthetic
 
 
 def parameter(name, value, unit, std=None):
-    return {"name": name, "key": name.split(".")[-1], "value": value, "std": std, "unit": unit, "fixed": False,
-            "lower": 0.0, "upper": None, "meaning": "the model's " + name}
+    return {
+        "name": name,
+        "key": name.split(".")[-1],
+        "value": value,
+        "std": std,
+        "unit": unit,
+        "fixed": False,
+        "lower": 0.0,
+        "upper": None,
+        "meaning": "the model's " + name,
+    }
 
 
 class Session:
@@ -28,19 +37,59 @@ class Session:
         self.asked = []
         self.story = synthetic.story(rows=4000, step=5e-3)
         self.state = {
-            "schema": "servoid.studio/1", "revision": 1, "story_revision": 1, "busy": None, "error": None,
-            "undo": None, "redo": None, "history": [{"what": "opened", "torque_error": 0.69}],
-            "model": {"inertia": parameter("inertia", 95.2, "kg", 0.2), "terms": [
-                {"index": 0, "effect": "constant_torque", "law": "w", "on": True,
-                 "parameters": [parameter("constant_torque.torque", -3.05, "N", 7.7)]}]},
+            "schema": "servoid.studio/1",
+            "revision": 1,
+            "story_revision": 1,
+            "busy": None,
+            "error": None,
+            "undo": None,
+            "redo": None,
+            "history": [{"what": "opened", "torque_error": 0.69}],
+            "model": {
+                "inertia": parameter("inertia", 95.2, "kg", 0.2),
+                "terms": [
+                    {
+                        "index": 0,
+                        "effect": "constant_torque",
+                        "law": "w",
+                        "on": True,
+                        "parameters": [parameter("constant_torque.torque", -3.05, "N", 7.7)],
+                    }
+                ],
+            },
             "captures": [{"file": "axis.csv", "rows": 4000, "duration_s": 20.0, "on": True}],
-            "effects": [{"name": "coulomb", "law": "Tc·sgn v", "signature": "changes sign with velocity", "cannot_add": ""},
-                        {"name": "viscous", "law": "D·v", "signature": "proportional to velocity", "cannot_add": ""},
-                        {"name": "stribeck", "law": "ΔT·exp(−(v/vs)²)·sgn v", "signature": "largest just above standstill",
-                         "cannot_add": "the model has no Coulomb friction"}],
-            "experiment": {"experiment": "trapezoid:stroke=0.2,cycles=2", "reason": "tells coulomb and viscous apart"},
-            "can": {"interface": "vcan0", "running": False, "rows": 0, "seconds": 0.0,
-                    "live": {"time_s": [], "torque": [], "position": []}}}
+            "effects": [
+                {
+                    "name": "coulomb",
+                    "law": "Tc·sgn v",
+                    "signature": "changes sign with velocity",
+                    "cannot_add": "",
+                },
+                {
+                    "name": "viscous",
+                    "law": "D·v",
+                    "signature": "proportional to velocity",
+                    "cannot_add": "",
+                },
+                {
+                    "name": "stribeck",
+                    "law": "ΔT·exp(−(v/vs)²)·sgn v",
+                    "signature": "largest just above standstill",
+                    "cannot_add": "the model has no Coulomb friction",
+                },
+            ],
+            "experiment": {
+                "experiment": "trapezoid:stroke=0.2,cycles=2",
+                "reason": "tells coulomb and viscous apart",
+            },
+            "can": {
+                "interface": "vcan0",
+                "running": False,
+                "rows": 0,
+                "seconds": 0.0,
+                "live": {"time_s": [], "torque": [], "position": []},
+            },
+        }
 
     def change(self, **what):
         with self.changed:
@@ -61,15 +110,24 @@ class Session:
 
     def take_step(self, what, error):
         history = self.state["history"] + [{"what": what, "torque_error": error}]
-        self.change(history=history, undo=what, error=None, story_revision=self.state["story_revision"] + 1)
+        self.change(
+            history=history, undo=what, error=None, story_revision=self.state["story_revision"] + 1
+        )
 
     def do_add(self, asked):
         effect = asked.get("effect") or "custom." + asked["name"]
         if "stribeck" in effect:
             return "stribeck: the model has no Coulomb friction"
         terms = self.state["model"]["terms"]
-        terms.append({"index": len(terms), "effect": effect, "law": asked.get("law", "law of " + effect), "on": True,
-                      "parameters": [parameter(effect + ".torque", 20.0, "N", 0.6)]})
+        terms.append(
+            {
+                "index": len(terms),
+                "effect": effect,
+                "law": asked.get("law", "law of " + effect),
+                "on": True,
+                "parameters": [parameter(effect + ".torque", 20.0, "N", 0.6)],
+            }
+        )
         self.take_step("+ " + effect, 0.15)
 
     def do_remove(self, asked):
@@ -91,19 +149,38 @@ class Session:
         self.change(redo=self.state["undo"], undo=None)
 
     def do_diagnose(self, _):
-        self.change(busy={"what": "diagnose", "detail": "backlash", "share": 0.4, "elapsed_s": 3.2, "left_s": 5.0})
+        self.change(
+            busy={
+                "what": "diagnose",
+                "detail": "backlash",
+                "share": 0.4,
+                "elapsed_s": 3.2,
+                "left_s": 5.0,
+            }
+        )
 
     def do_stop(self, _):
         self.change(busy=None)
 
     def do_run(self, _):
         times = [0.01 * k for k in range(200)]
-        self.state["can"].update(running=True, rows=200, seconds=2.0, live={
-            "time_s": times, "torque": [k % 50 for k in range(200)], "position": [0.01 * k for k in range(200)]})
+        self.state["can"].update(
+            running=True,
+            rows=200,
+            seconds=2.0,
+            live={
+                "time_s": times,
+                "torque": [k % 50 for k in range(200)],
+                "position": [0.01 * k for k in range(200)],
+            },
+        )
         self.change()
 
     def add_capture(self, name, size):
-        self.change(captures=self.state["captures"] + [{"file": name, "rows": size, "duration_s": 1.0, "on": True}])
+        self.change(
+            captures=self.state["captures"]
+            + [{"file": name, "rows": size, "duration_s": 1.0, "on": True}]
+        )
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -136,7 +213,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
             session.add_capture(urllib.parse.parse_qs(url.query)["name"][0], len(body))
             return self.answer("{}")
         refused = session.act(json.loads(body))
-        return self.answer(json.dumps({"error": refused}), status=409) if refused else self.answer("{}")
+        return (
+            self.answer(json.dumps({"error": refused}), status=409)
+            if refused
+            else self.answer("{}")
+        )
 
 
 class Server(http.server.ThreadingHTTPServer):

@@ -6,9 +6,15 @@ import sys
 
 import assemble
 
-TEXT = {"paper": "ink muted accent residual refined good warn bad idle", "panel": "ink muted accent residual",
-        "accent": "on-accent", "residual": "on-accent", "line": "ink", "heat+": "ink",
-        "heat-": "ink"}
+TEXT = {
+    "paper": "ink muted accent residual refined good warn bad idle",
+    "panel": "ink muted accent residual",
+    "accent": "on-accent",
+    "residual": "on-accent",
+    "line": "ink",
+    "heat+": "ink",
+    "heat-": "ink",
+}
 LINES = {"paper": "measured recorded model residual refined accent ink"}
 
 
@@ -19,7 +25,7 @@ def themes():
 
 
 def luminance(colour):
-    parts = [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     parts = [p / 12.92 if p <= 0.03928 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
     return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
@@ -31,7 +37,9 @@ def contrast(one, other):
 
 def heat(palette, tone):
     """The strongest cell of the correlation table: 50 % of the tone on paper."""
-    mix = lambda i: round(0.5 * int(palette[tone][i:i + 2], 16) + 0.5 * int(palette["paper"][i:i + 2], 16))
+    mix = lambda i: round(
+        0.5 * int(palette[tone][i : i + 2], 16) + 0.5 * int(palette["paper"][i : i + 2], 16)
+    )
     return "#" + "".join(f"{mix(i):02x}" for i in (1, 3, 5))
 
 
@@ -47,7 +55,11 @@ found = list(themes())
 for _, palette in found:
     palette.update({"heat+": heat(palette, "accent"), "heat-": heat(palette, "residual")})
 assert len(found) == 2, f"expected a light and a dark palette: {[name for name, _ in found]}"
-faults = [f for theme, palette in found for pairs, least in ((TEXT, 4.5), (LINES, 3.0))
-          for f in weak(pairs, least, palette, theme)]
+faults = [
+    f
+    for theme, palette in found
+    for pairs, least in ((TEXT, 4.5), (LINES, 3.0))
+    for f in weak(pairs, least, palette, theme)
+]
 print("\n".join(faults) or "figure: all contrasts are at least 4.5 for text and 3 for lines")
 sys.exit(bool(faults))

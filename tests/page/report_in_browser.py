@@ -10,7 +10,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-HOSTILE = "</script><script>window.owned=1</script><img src=x onerror=\"window.owned=1\">&amp;\u2028'\"`${1}"
+HOSTILE = '</script><script>window.owned=1</script><img src=x onerror="window.owned=1">&amp;\u2028\'"`${1}'
 # Not text: codes that the page looks up, and packed numbers.
 CODES = {"low", "high", "schema", "verdict", "variable", "group"}
 
@@ -22,17 +22,21 @@ for (const picture of document.querySelectorAll('svg.plot')) {
   if (!frame.width) continue;
   const texts = [...picture.querySelectorAll('text')].map(t => [t.textContent, t.getBoundingClientRect()]);
   texts.forEach(([text, r], k) => {
-    if (r.left < frame.left - 1 || r.right > frame.right + 1 || r.bottom > frame.bottom + 2) bad.push('outside: ' + text);
-    for (const [other, q] of texts.slice(k + 1))
-      if (r.left < q.right - 1 && q.left < r.right - 1 && r.top < q.bottom - 3 && q.top < r.bottom - 3) bad.push(text + ' over ' + other);
+    const wide = r.left < frame.left - 1 || r.right > frame.right + 1;
+    if (wide || r.bottom > frame.bottom + 2) bad.push('outside: ' + text);
+    for (const [other, q] of texts.slice(k + 1)) {
+      const beside = r.left >= q.right - 1 || q.left >= r.right - 1;
+      if (!beside && r.top < q.bottom - 3 && q.top < r.bottom - 3) bad.push(text + ' over ' + other);
+    }
   });
 }
 return bad;"""
 
 AXES = """
-const named = e => e.dataset.unit && e.textContent.endsWith(', ' + e.dataset.unit) ? null : e.textContent;
-const bare = [...document.querySelectorAll('svg.plot, .strip')].filter(p => !p.querySelector('.axis-title')).map(p => p.outerHTML.slice(0, 200));
-return [...document.querySelectorAll('.axis-title')].map(named).filter(Boolean).concat(bare);"""
+const all = what => [...document.querySelectorAll(what)];
+const bad = t => !t.dataset.unit || !t.textContent.endsWith(', ' + t.dataset.unit);
+const bare = all('svg.plot, .strip').filter(p => !p.querySelector('.axis-title'));
+return all('.axis-title').filter(bad).concat(bare).map(e => e.outerHTML.slice(0, 200));"""
 
 
 def hostile(value, key=None):
@@ -46,7 +50,16 @@ def hostile(value, key=None):
 def bare(story):
     """What is left where nothing was asked for or found."""
     story = copy.deepcopy(story)
-    for key in ("verdict", "diagnose", "refine", "refined_toml", "orders", "response", "spectrum", "given_error"):
+    for key in (
+        "verdict",
+        "diagnose",
+        "refine",
+        "refined_toml",
+        "orders",
+        "response",
+        "spectrum",
+        "given_error",
+    ):
         story[key] = None
     story["against"], story["candidates"] = [], []
     story["parameters"]["after"] = None
@@ -92,15 +105,21 @@ class Report(unittest.TestCase):
             self.assertEqual(self.run_script("return document.scripts.length"), 4)
             self.assertIn("<img src=x", self.by_id("title").text)
             self.assertIn("<img src=x", self.by_id("worst-1").text)
-            self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 1280)
+            self.assertLessEqual(
+                self.run_script("return document.documentElement.scrollWidth"), 1280
+            )
             self.assertEqual(browser.complaints(self.driver), [])
 
     def test_fits_its_window(self):
         for width in (1280, 820):
             for dark in (False, True):
-                with self.subTest(width=width, dark=dark), browser.report(self.driver, self.story, width, dark):
+                with self.subTest(width=width, dark=dark), browser.report(
+                    self.driver, self.story, width, dark
+                ):
                     self.open_folds()
-                    self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), width)
+                    self.assertLessEqual(
+                        self.run_script("return document.documentElement.scrollWidth"), width
+                    )
                     self.assertEqual(self.run_script(CROWDED), [])
                     theme = self.run_script("return document.documentElement.dataset.theme")
                     self.assertEqual(theme, "dark" if dark else "light")
@@ -109,26 +128,39 @@ class Report(unittest.TestCase):
         with browser.report(self.driver, self.story):
             self.open_folds()
             self.assertEqual(self.run_script(AXES), [])
-            self.assertGreater(self.run_script("return document.querySelectorAll('.axis-title').length"), 25)
+            self.assertGreater(
+                self.run_script("return document.querySelectorAll('.axis-title').length"), 25
+            )
 
     def test_shows_the_numbers_of_the_story(self):
         with browser.report(self.driver, self.story):
             exact = lambda name: float(self.by_id(name).get_attribute("data-value"))
             self.assertEqual(self.by_id("verdict").text, "unknown")
-            self.assertEqual((exact("error-now"), exact("error-after"), exact("noise-floor")), (0.694, 0.0282, 0.0057))
+            self.assertEqual(
+                (exact("error-now"), exact("error-after"), exact("noise-floor")),
+                (0.694, 0.0282, 0.0057),
+            )
             best = self.driver.find_element(By.CSS_SELECTOR, ".candidate")
             self.assertEqual(best.get_attribute("data-effect"), "coulomb")
             self.assertIn("36.60 ± 0.77", best.text)
-            self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "#ladder rect.rung")), 5)
-            row = self.driver.find_element(By.CSS_SELECTOR, "#parameter-table [data-parameter='coulomb.torque']")
+            self.assertEqual(
+                len(self.driver.find_elements(By.CSS_SELECTOR, "#ladder rect.rung")), 5
+            )
+            row = self.driver.find_element(
+                By.CSS_SELECTOR, "#parameter-table [data-parameter='coulomb.torque']"
+            )
             self.assertIn("13.67 ± 0.54", row.text)
             self.assertIn("trapezoid:stroke=0.2", self.by_id("next-experiment").text)
 
     def test_says_nothing_of_what_is_not_there(self):
         with browser.report(self.driver, bare(self.story)):
             self.assertEqual(browser.complaints(self.driver), [])
-            sections = self.run_script("return [...document.querySelectorAll('main > section')].map(s => s.id)")
-            self.assertEqual(sections, ["verdict-section", "time", "parameters", "next", "provenance"])
+            sections = self.run_script(
+                "return [...document.querySelectorAll('main > section')].map(s => s.id)"
+            )
+            self.assertEqual(
+                sections, ["verdict-section", "time", "parameters", "next", "provenance"]
+            )
             self.assertEqual(self.by_id("verdict").text, "not diagnosed yet")
 
     def test_worst_place_by_keyboard(self):
@@ -151,18 +183,24 @@ class Report(unittest.TestCase):
         with browser.report(self.driver, self.story):
             self.run_script("document.querySelector('#correlation [tabindex=\"0\"]').focus()")
             ActionChains(self.driver).send_keys(Keys.ARROW_DOWN).perform()
-            self.assertIn("constant_torque.torque and inertia", self.by_id("correlation-reading").text)
+            self.assertIn(
+                "constant_torque.torque and inertia", self.by_id("correlation-reading").text
+            )
 
     def test_copies(self):
         with browser.report(self.driver, self.story):
             button = self.by_id("command-1-copy")
-            self.run_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", button)
+            self.run_script(
+                "arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", button
+            )
             button.click()
             browser.wait(lambda: button.text == "Copied", "the button says that it copied")
 
     def test_the_theme_changes_by_button(self):
         with browser.report(self.driver, self.story):
-            ground = lambda: self.driver.find_element(By.TAG_NAME, "body").value_of_css_property("background-color")
+            ground = lambda: self.driver.find_element(By.TAG_NAME, "body").value_of_css_property(
+                "background-color"
+            )
             light = ground()
             self.by_id("theme").click()
             self.assertNotEqual(ground(), light)

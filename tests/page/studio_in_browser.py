@@ -41,14 +41,19 @@ class Studio(unittest.TestCase):
         # News may build the panel anew between finding and clicking.
         for last in (False, False, True):
             try:
-                self.driver.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", self.by_id(name))
+                self.driver.execute_script(
+                    "arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})",
+                    self.by_id(name),
+                )
                 return self.by_id(name).click()
             except StaleElementReferenceException:
                 if last:
                     raise
 
     def value(self, name):
-        return self.driver.execute_script("return document.getElementById(arguments[0]).value", name)
+        return self.driver.execute_script(
+            "return document.getElementById(arguments[0]).value", name
+        )
 
     def asked(self, **action):
         browser.wait(lambda: action in self.session.asked, f"{action} in {self.session.asked}")
@@ -60,7 +65,9 @@ class Studio(unittest.TestCase):
         ActionChains(self.driver).send_keys(*keys).perform()
 
     def undo_keys(self):
-        ActionChains(self.driver).key_down(Keys.CONTROL).send_keys("z").key_up(Keys.CONTROL).perform()
+        ActionChains(self.driver).key_down(Keys.CONTROL).send_keys("z").key_up(
+            Keys.CONTROL
+        ).perform()
 
     def test_adds_turns_and_removes_terms(self):
         self.click("effect-add")
@@ -68,7 +75,13 @@ class Studio(unittest.TestCase):
         self.shown("model", "coulomb")
         self.click("term-on-1")
         self.asked(action="turn", index=1, on=False)
-        browser.wait(lambda: "off" in self.driver.find_element(By.CSS_SELECTOR, ".term[data-index='1']").get_attribute("class"), "the term is off")
+        browser.wait(
+            lambda: "off"
+            in self.driver.find_element(By.CSS_SELECTOR, ".term[data-index='1']").get_attribute(
+                "class"
+            ),
+            "the term is off",
+        )
         self.click("term-remove-1")
         self.asked(action="remove", index=1)
         browser.wait(lambda: not self.driver.find_elements(By.ID, "term-on-1"), "the term is gone")
@@ -180,11 +193,21 @@ class Studio(unittest.TestCase):
         browser.settle(self.driver)
         self.assertEqual(self.by_id("time-window").get_attribute("data-from"), before)
 
+    def test_the_place_on_the_page_survives_a_new_story(self):
+        self.click("add-viscous")
+        before = self.driver.execute_script("return scrollY")
+        self.shown("do-undo", "viscous")
+        browser.settle(self.driver)
+        self.assertAlmostEqual(self.driver.execute_script("return scrollY"), before, delta=2)
+        self.assertEqual(self.driver.switch_to.active_element.get_attribute("id"), "add-viscous")
+
     def test_the_state_survives_a_reload(self):
         self.click("effect-add")
         self.shown("model", "coulomb")
         self.driver.refresh()
-        browser.wait(lambda: self.driver.find_elements(By.ID, "value-coulomb.torque"), "the model as it was")
+        browser.wait(
+            lambda: self.driver.find_elements(By.ID, "value-coulomb.torque"), "the model as it was"
+        )
 
     def test_says_that_the_connection_is_lost(self):
         state = lambda: self.by_id("connection").get_attribute("data-state")
@@ -204,7 +227,10 @@ class Studio(unittest.TestCase):
             for dark in (False, True):
                 with self.subTest(width=width, dark=dark):
                     self.open(width, dark)
-                    self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width)
+                    self.assertLessEqual(
+                        self.driver.execute_script("return document.documentElement.scrollWidth"),
+                        width,
+                    )
                     self.assertEqual(browser.complaints(self.driver), [])
 
 
