@@ -122,9 +122,9 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", SID_VERSION_STRING);
     app.require_subcommand(1);
     app.footer("Every verb has --help with examples.");
-    for (auto add :
-         {add_simulate, add_identify, add_sweep, add_friction, add_compare, add_add, add_effects,
-          add_diagnose, add_refine, add_reveal, add_replay, add_drive, add_command, add_report})
+    for (auto add : {add_simulate, add_identify, add_sweep, add_friction, add_compare, add_add,
+                     add_effects, add_diagnose, add_refine, add_reveal, add_replay, add_drive,
+                     add_command, add_report, add_studio})
         add(app);
     try {
         app.parse(argc, argv);

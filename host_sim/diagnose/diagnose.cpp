@@ -17,6 +17,21 @@ namespace servoid {
 
 namespace {
 
+// What is being done, and how much of the whole is done by then.
+struct Stages {
+    const Progress& progress;
+    void tell(const std::string& what, double share) const {
+        if (progress) progress(what, share);
+    }
+    // Of a stage that tells its own share.
+    Progress within(double from, double to) const {
+        if (!progress) return {};
+        return [this, from, to](const std::string& what, double share) {
+            progress(what, from + (to - from) * share);
+        };
+    }
+};
+
 constexpr double kSure = 0.9;       // probability from which one candidate stands alone
 constexpr double kLeastGain = 0.03; // of the residual's power: less is not worth a name
 constexpr double kNearFloor = 1.15; // times the floor: the residual is noise
@@ -69,13 +84,14 @@ bool same_twice(const Diagnosis& d, const Candidate& first, const Candidate& sec
 }
 
 // Something is left that a free function of one variable explains and the catalogue does not.
-bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler) {
+bool unexplained(Diagnosis& d, const Candidate& best, Assembler& assembler, const Stages& stages) {
     if (best.validation_error_after < d.noise_floor) return false;
     const Structure left = structure_of(best.fit, best.validation_error_after, assembler);
     d.probes = left.probes;
     if (!left.evident) return false;
     for (const Tried tried : {Tried::solved, Tried::searched})
-        for (const Candidate& second : try_all(best.fit, assembler.motions(), {}, tried)) {
+        for (const Candidate& second :
+             try_all(best.fit, assembler.motions(), stages.within(0.85, 0.95), tried)) {
             if (!second.sound || same_twice(d, best, second)) continue;
             const double ratio = second.validation_error_after / best.validation_error_after;
             if (1 - ratio * ratio > kAsGood * left.evident->explained) return false;
@@ -103,7 +119,7 @@ Verdict without_candidate(Diagnosis& d, Assembler& assembler) {
     return d.not_noise.empty() ? Verdict::adequate : Verdict::unknown;
 }
 
-Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
+Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead, const Stages& stages) {
     const bool any = !d.candidates.empty() && d.candidates.front().sound;
     const double gain = any ? gain_of(d, d.candidates.front()) : 0;
     const bool near_floor = d.error_before < kNearFloor * d.noise_floor;
@@ -116,7 +132,7 @@ Verdict judge(Diagnosis& d, Assembler& assembler, bool look_ahead) {
         return without_candidate(d, assembler);
     const auto rival = outside_rival(d, d.candidates.front(), assembler);
     const bool better = rival && rival->z > kBetter;
-    if (!better && look_ahead && unexplained(d, d.candidates.front(), assembler))
+    if (!better && look_ahead && unexplained(d, d.candidates.front(), assembler, stages))
         return Verdict::unknown;
     if (rival) {
         d.outside = rival->law;
@@ -158,8 +174,10 @@ const char* verdict_name(Verdict verdict) {
 
 Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motions,
                    const DiagnoseOptions& options) {
+    const Stages stages{options.progress};
     Assembler assembler(motions);
     Diagnosis d;
+    stages.tell("the model as it is", 0);
     d.before = without_artifact(fit_homed(model, assembler), assembler, 2);
     d.error_before = d.before.torque_error;
     d.blocks_before = held_out_blocks(d.before, assembler);
@@ -168,21 +186,28 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     d.noise_floor = floor.ratio, d.floor_from_repetition = floor.from_repetition;
     for (const PreparedMotion& m : motions)
         d.band_Hz = std::max(d.band_Hz, m.band_Hz);
-    d.candidates = try_all(d.before, motions, options.progress);
+    d.candidates = try_all(d.before, motions, stages.within(0, 0.6));
+    stages.tell("everyday friction", 0.6);
     d.everyday = everyday_of(d.before, assembler);
+    stages.tell("twins of the best", 0.65);
     polish_best(d.candidates, d.before, motions);
+    stages.tell("weighing", 0.72);
     weigh(d, assembler);
     if (d.candidates.front().sound && d.candidates.front().probability > kWorthFinishing) {
+        stages.tell("twins of " + d.candidates.front().effect, 0.78);
         finish(d.candidates.front(), d.before, assembler);
         weigh(d, assembler);
     }
     share_aliases(d, motions);
-    d.verdict = judge(d, assembler, options.look_ahead);
+    stages.tell("what would be left", 0.85);
+    d.verdict = judge(d, assembler, options.look_ahead, stages);
+    stages.tell("what to record next", 0.95);
     d.shortage = shortage_of(d, assembler);
     if (d.shortage) d.verdict = Verdict::insufficient;
     d.cannot_show = unseen_of(d, assembler);
     if (options.look_ahead) d.next = next_of(d, motions); // not in the steps of refine
     d.advice = advice_for(d);
+    stages.tell("done", 1);
     return d;
 }
 

@@ -73,6 +73,7 @@ const Actions = (() => {
     return [
       Dom.make("h3", {}, "Next experiment"), Dom.make("p", {class: "hint"}, experiment.reason),
       Dom.make("code", {}, experiment.experiment),
+      experiment.preview && Dom.make("p", {id: "next-preview", class: "hint"}, experiment.preview),
       Dom.make(
           "div", {class: "row"},
           button("simulate-next", "Simulate it", free, () => act("experiment")))

@@ -49,8 +49,9 @@ std::optional<Busy> Worker::busy() const {
     const std::lock_guard lock(mutex_);
     if (!busy_) return std::nullopt;
     Busy out = *busy_;
-    out.elapsed_s = seconds(Clock::now() - begun_);
-    if (out.share > kEnough) out.left_s = out.elapsed_s * (1 - out.share) / out.share;
+    const Clock::time_point now = Clock::now();
+    out.elapsed_s = seconds(now - begun_);
+    if (out.share > kEnough) out.left_s = seconds(now - pass_) * (1 - out.share) / out.share;
     return out;
 }
 
@@ -60,6 +61,7 @@ void Worker::tell(const std::string& detail, double share) {
     {
         const std::lock_guard lock(mutex_);
         if (!busy_) return;
+        if (share < busy_->share) pass_ = Clock::now(); // refining looks several times
         busy_->detail = detail, busy_->share = share;
         if (Clock::now() - told_ < kPause) return;
         told_ = Clock::now();
@@ -87,7 +89,7 @@ void Worker::run() {
             waiting_.pop_front();
             stop_ = false, dispensable_ = task.dispensable;
             busy_ = Busy{task.what, "", 0, 0, std::nullopt};
-            begun_ = Clock::now();
+            begun_ = pass_ = Clock::now();
         }
         changed_();
         perform(task);

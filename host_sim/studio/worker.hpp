@@ -18,7 +18,7 @@ namespace servoid::studio {
 struct Busy {
     std::string what, detail;
     double share = 0, elapsed_s = 0;
-    std::optional<double> left_s; // where the share says enough
+    std::optional<double> left_s; // of the present pass, where the share says enough
 };
 
 class Worker {
@@ -56,7 +56,7 @@ class Worker {
     std::deque<Task> waiting_;
     std::optional<Busy> busy_;
     bool dispensable_ = false; // what is being done
-    Clock::time_point begun_, told_;
+    Clock::time_point begun_, pass_, told_;
     std::atomic<bool> stop_{false}, ended_{false};
     std::thread thread_;
 };
