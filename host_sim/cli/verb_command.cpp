@@ -206,7 +206,7 @@ void run_move(const Options& o) {
 // What `diagnose` would record next, recorded.
 void run_next(Options o) {
     const Model model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<Capture> captures = o.captures.read(&model, o.output);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const Diagnosis d = diagnose(model, motions);
     o.output.note(std::string(verdict_name(d.verdict)) + ": " + d.advice);

@@ -31,7 +31,8 @@ Json picture_json(const Signature& s) {
 
 void print_picture(const Output& out, const Signature& s, const Picture& picture) {
     TextPlot plot;
-    plot.braille = speaks_utf8();
+    plot.braille = out.screen.utf8;
+    if (out.screen.terminal) plot.columns = std::min(plot.columns, out.screen.columns - 12);
     plot.smallest_range = s.smallest_range;
     plot.x_label = s.x_name + ", " + s.x_unit;
     plot.y_label = s.y_name + ", " + s.y_unit;

@@ -169,6 +169,7 @@ Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motion
     for (const PreparedMotion& m : motions)
         d.band_Hz = std::max(d.band_Hz, m.band_Hz);
     d.candidates = try_all(d.before, motions, options.progress);
+    if (options.progress) options.progress("weighing the best of them", 1);
     d.everyday = everyday_of(d.before, assembler);
     polish_best(d.candidates, d.before, motions);
     weigh(d, assembler);
