@@ -93,22 +93,24 @@ std::string share_bar(const Output& out, const Regime& r, int columns) {
     return out.paint(tone, b.before) + b.mark + out.paint(tone, b.behind);
 }
 
-std::string share_row(const ShareColumns& columns, const std::string& name,
-                      const std::string& residual, const std::string& samples) {
+std::string share_row(const Screen& screen, const std::string& name, const std::string& residual,
+                      const std::string& samples) {
+    const ShareColumns columns = share_columns(screen);
     const int width = columns.name + 2; // with the indent
-    std::string out =
-        padded(shortened(name, width), width) + " " + right_aligned(residual, columns.residual);
+    std::string out = screen.cell(name, width) + " " + right_aligned(residual, columns.residual);
     if (columns.samples > 0) out += " " + right_aligned(samples, columns.samples);
     return out;
 }
 
 void print_shares(const Output& out, const Comparison& c) {
     const ShareColumns columns = share_columns(out.screen);
-    const char* key = !out.screen.terminal ? "" : out.screen.utf8 ? "   │ samples" : "   | samples";
-    out.line("\n" + share_row(columns, "where it fails", "residual", "samples") + key);
+    const char* key = !out.screen.terminal || columns.bar < 10 ? ""
+                      : out.screen.utf8                        ? "   │ samples"
+                                                               : "   | samples";
+    out.line("\n" + share_row(out.screen, "where it fails", "residual", "samples") + key);
     for (const Regime& r : c.where)
         if (!by_value(r))
-            out.line(share_row(columns, "  " + r.regime, percent(r.residual_share),
+            out.line(share_row(out.screen, "  " + r.regime, percent(r.residual_share),
                                percent(r.sample_share)) +
                      "   " + share_bar(out, r, columns.bar));
 }
@@ -124,10 +126,11 @@ MeanColumns mean_columns(const Screen& screen) {
     return {screen.columns >= 58 ? screen.columns - 38 : 0, false};
 }
 
-std::string mean_row(const MeanColumns& columns, const std::string& means, const std::string& range,
+std::string mean_row(const Screen& screen, const std::string& means, const std::string& range,
                      const std::string& density, const std::string& mean) {
-    std::string out = padded(means, 24) + "  ";
-    if (columns.range > 0) out += padded(shortened(range, columns.range), columns.range) + " ";
+    const MeanColumns columns = mean_columns(screen);
+    std::string out = screen.cell(means, 24) + "  ";
+    if (columns.range > 0) out += screen.cell(range, columns.range) + " ";
     if (columns.density) out += right_aligned(density, 7) + " ";
     return out + right_aligned(mean, 11);
 }
@@ -144,7 +147,7 @@ void print_group(const Output& out, const std::vector<Regime>& bins, double full
         });
     const std::string range = most.regime.substr(most.group.size() + 1);
     const std::string row = sparkline(means, full_scale, out.screen.utf8);
-    out.line(mean_row(mean_columns(out.screen), fmt::format("  {:<13} {}", most.group, row), range,
+    out.line(mean_row(out.screen, fmt::format("  {:<13} {}", most.group, row), range,
                       fmt::format("x {:.3g}", density(most)),
                       fmt::format("{:.3g}", most.mean_residual)));
 }
@@ -157,8 +160,8 @@ void print_means(const Output& out, const Comparison& c) {
         groups.back().push_back(r);
     }
     if (groups.empty()) return;
-    out.line("\n" + mean_row(mean_columns(out.screen), "mean residual, low…high", "densest at",
-                             "density", "mean, " + c.torque_unit));
+    out.line("\n" + mean_row(out.screen, "mean residual, low…high", "densest at", "density",
+                             "mean, " + c.torque_unit));
     for (const std::vector<Regime>& bins : groups)
         print_group(out, bins, c.residual_rms);
 }

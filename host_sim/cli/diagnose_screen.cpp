@@ -27,6 +27,8 @@ Tone tone_of(Verdict verdict) {
     return Tone::red;
 }
 
+constexpr double kSeen = 5e-4; // a probability that is printed as more than 0.000
+
 // Columns of the table of candidates; 0: there is no room for it.
 struct Columns {
     int name, bar, change, after, unseen, note;
@@ -36,8 +38,8 @@ Columns columns_on(const Screen& screen) {
     const int all = screen.columns;
     if (all < 56) return {all - 22, 0, 0, 8, 8, 0};
     if (all < 76) return {21, all - 54, 17, 0, 9, 0};
-    const int bar = std::clamp(all / 3 - 20, 6, 16);
-    return {22, bar, 17, 0, 9, all - bar - 59};
+    const int bar = std::clamp(all / 3 - 20, 7, 16);
+    return {21, bar, 16, 0, 8, all - bar - 51};
 }
 
 struct Row {
@@ -45,11 +47,10 @@ struct Row {
 };
 
 std::string text_of(const Row& row, const Columns& c) {
-    std::string out = padded(shortened(row.name, c.name), c.name) + padded(row.bar, c.bar) +
-                      right_aligned(row.probability, 6) +
-                      right_aligned(row.error, c.change + c.after) +
-                      right_aligned(row.unseen, c.unseen);
-    if (c.note > 8 && !row.note.empty()) out += "  " + shortened(row.note, c.note - 2);
+    std::string out =
+        padded(row.name, c.name) + padded(row.bar, c.bar) + right_aligned(row.probability, 6) +
+        right_aligned(row.error, c.change + c.after) + right_aligned(row.unseen, c.unseen);
+    if (c.note > 8 && !row.note.empty()) out += "  " + row.note;
     return out;
 }
 
@@ -61,12 +62,15 @@ std::string change(double before, double after) {
 
 Row row_of(const Output& out, const Diagnosis& d, const Candidate& c, const Columns& columns) {
     const BarStyle style{std::max(0, columns.bar - 1), out.screen.utf8};
-    return {c.effect,
-            c.sound ? out.paint(Tone::cyan, bar(c.probability, style)) : "",
+    const std::string name = out.screen.cell(c.effect, columns.name - 1);
+    const bool best = &c == &d.candidates.front() && c.sound;
+    return {best ? out.bold(name) : name,
+            c.sound && c.probability > kSeen ? out.paint(Tone::cyan, bar(c.probability, style))
+                                             : "",
             fmt::format("{:.3f}", c.probability),
             columns.change > 0 ? change(d.error_before, c.error_after) : percent(c.error_after),
             percent(c.validation_error_after),
-            c.note};
+            columns.note > 2 ? out.screen.cell(c.note, columns.note - 2) : ""};
 }
 
 void show_candidates(const Output& out, const Diagnosis& d) {
@@ -78,8 +82,7 @@ void show_candidates(const Output& out, const Diagnosis& d) {
     for (const Candidate& c : d.candidates) {
         if (!c.fitted) continue;
         const std::string text = text_of(row_of(out, d, c, columns), columns);
-        const bool best = &c == &d.candidates.front() && c.sound;
-        out.line(best ? out.bold(text) : c.sound ? text : out.dim(text));
+        out.line(c.sound ? text : out.dim(text));
     }
 }
 
@@ -87,8 +90,7 @@ void show_best(const Output& out, const Diagnosis& d, bool ampere) {
     if (d.candidates.empty() || !d.candidates.front().sound) return;
     const Candidate& best = d.candidates.front();
     out.line("\n" + out.bold(best.effect) + ": " + best.signature, 0);
-    for (const FittedParameter& p : best.parameters)
-        print_parameter(out, p, unit_of(p.quantity, d.before.model.motion, ampere));
+    print_parameters(out, best.parameters, d.before.model.motion, ampere);
 }
 
 void show_command(const Output& out, const std::string& what, const Command& command) {

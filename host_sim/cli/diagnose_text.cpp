@@ -14,8 +14,7 @@ void print_best(const Output& out, const Diagnosis& d, bool ampere) {
     if (d.candidates.empty() || !d.candidates.front().sound) return;
     const Candidate& best = d.candidates.front();
     out.line(fmt::format("\n{}: {}", best.effect, best.signature));
-    for (const FittedParameter& p : best.parameters)
-        print_parameter(out, p, unit_of(p.quantity, d.before.model.motion, ampere));
+    print_parameters(out, best.parameters, d.before.model.motion, ampere);
 }
 
 } // namespace

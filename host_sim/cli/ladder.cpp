@@ -55,7 +55,7 @@ void Ladder::print_head() const {
     const MarkedBar empty = marked_bar(0, share_of(floor_), {c.bar, out_.screen.utf8});
     const int room = c.bar - display_width(empty.before) - 2;
     const std::string floor = fmt::format("noise {}", percent(floor_));
-    const std::string key = fmt::format("noise floor {}, bars log.", percent(floor_));
+    const std::string key = fmt::format("noise floor {} · log. scale", percent(floor_));
     text += "  " + empty.before + empty.mark + " ";
     out_.line(out_.dim(text + (room >= display_width(key)     ? key
                                : room >= display_width(floor) ? floor
@@ -65,7 +65,7 @@ void Ladder::print_head() const {
 void Ladder::print(const Rung& rung) {
     const Columns c = columns();
     const std::string name = rung.added.empty() ? "as it was" : "+ " + rung.added;
-    std::string text = padded(shortened(name, c.name), c.name);
+    std::string text = out_.screen.cell(name, c.name);
     text += out_.bold(right_aligned(percent(rung.torque_error), c.error));
     if (c.unseen > 0) text += right_aligned(percent(rung.validation_error), c.unseen);
     if (c.factor > 0)

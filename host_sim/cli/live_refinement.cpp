@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace servoid::cli {
@@ -17,8 +18,8 @@ DiagnoseOptions LiveRefinement::options() {
     DiagnoseOptions out;
     if (const Progress progress = line_.progress())
         out.progress = [this, progress](const std::string& what, double share) {
-            const size_t rung = ladder_ ? ladder_->rungs() : 0;
-            progress(fmt::format("pass {}: {}", rung + 1, what), share);
+            const size_t rungs = ladder_ ? ladder_->rungs() : 0; // the first pass makes two
+            progress(fmt::format("pass {}: {}", std::max<size_t>(1, rungs), what), share);
         };
     if (out_.on_terminal()) out.on_rung = [this](const Refinement& r) { show_rung(r); };
     return out;

@@ -14,6 +14,7 @@ namespace {
 constexpr int kMost = 60;
 constexpr int kLabels = 10; // columns before the row
 constexpr size_t kWorst = 3;
+constexpr double kEnlarged = 3; // so much lower a row shows nothing but that it is low
 
 std::vector<double> rms_values(const std::vector<TimePart>& parts) {
     std::vector<double> out;
@@ -71,9 +72,13 @@ void print_before_and_after(const Output& out, const std::vector<TimePart>& befo
                             const std::vector<TimePart>& after) {
     if (before.empty()) return;
     const double highest = std::max(highest_of(before), highest_of(after));
-    out.line("\nresidual over time, on one scale");
+    const double own = highest_of(after);
+    out.line("\nresidual over time");
     out.line("  before  " + row_of(out, before, highest));
     out.line("  after   " + row_of(out, after, highest));
+    if (own > 0 && highest > kEnlarged * own)
+        out.line(fmt::format("  {:<7} {}", fmt::format("x {:.3g}", highest / own),
+                             row_of(out, after, own)));
 }
 
 } // namespace servoid::cli

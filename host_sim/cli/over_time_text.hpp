@@ -13,7 +13,8 @@ int parts_on(const Screen& screen);
 void print_over_time(const Output& out, const std::vector<TimePart>& parts,
                      const std::string& unit);
 
-// The same stretch with two models, one below the other on one scale.
+// Of two models, one below the other on one scale; the second also enlarged where that shows
+// nothing of it.
 void print_before_and_after(const Output& out, const std::vector<TimePart>& before,
                             const std::vector<TimePart>& after);
 

@@ -6,9 +6,10 @@
 
 namespace servoid::cli {
 
-// One line: name, value ± std, unit; two on a narrow terminal.
-void print_parameter(const Output& out, const FittedParameter& parameter, const std::string& unit);
-// Of all parameters, and those that are held at a bound.
+// A line for each: name, value ± std, unit; two lines on a narrow terminal.
+void print_parameters(const Output& out, const std::vector<FittedParameter>& parameters,
+                      Motion motion, bool ampere);
+// The same of a fit, and which of them are held at a bound.
 void print_parameters(const Output& out, const FitResult& fit, bool ampere);
 
 // A line per capture that was not homed.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 
 namespace servoid::cli {
@@ -24,7 +25,7 @@ double seconds_since(Clock::time_point begin) {
 }
 
 std::string time_left(double seconds) {
-    if (seconds < 99.5) return fmt::format("{:.0f} s left", seconds);
+    if (seconds < 99.5) return fmt::format("{:.0f} s left", std::ceil(seconds));
     return fmt::format("{:.0f} min left", seconds / 60);
 }
 

@@ -54,6 +54,14 @@ std::vector<std::string> Screen::lines_of(const std::string& text, int indent) c
     }
 }
 
+std::string Screen::cell(const std::string& text, int width) const {
+    if (!terminal) return padded(text, width);
+    if (utf8) return padded(shortened(text, width), width);
+    const std::string plain = in_ascii(text); // before it is measured: it gets longer
+    if (display_width(plain) <= width) return padded(plain, width);
+    return plain.substr(0, size_t(std::max(0, width - 1))) + "~";
+}
+
 Screen screen_of(int descriptor) {
     Screen out;
     if (!isatty(descriptor)) return out;

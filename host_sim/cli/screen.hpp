@@ -16,6 +16,8 @@ struct Screen {
     // Text as it goes out: on a terminal in lines that are not wider, further ones indented so
     // much more than the first, and in ASCII where it speaks nothing else. In a pipe as it is.
     std::vector<std::string> lines_of(const std::string& text, int indent = 2) const;
+    // Text in a column of a table, blanks behind it: cut where it is too long for a terminal.
+    std::string cell(const std::string& text, int width) const;
 };
 
 // Of a file descriptor, as it is now: a window changes its size.

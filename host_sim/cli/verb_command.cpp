@@ -4,16 +4,15 @@
 #include "cli/bus_output.hpp"
 #include "cli/bus_session.hpp"
 #include "cli/identify_output.hpp"
+#include "cli/progress.hpp"
 #include "common/error.hpp"
 #include "diagnose/diagnose.hpp"
 #include "node/master.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <memory>
 
@@ -35,11 +34,11 @@ struct Options {
     CaptureOptions captures;
 };
 
-OnProgress on_terminal(const Output& output) {
-    if (output.quiet || !isatty(STDERR_FILENO)) return {};
-    return [](const RunProgress& p) {
-        std::cerr << fmt::format("\r{:3.0f} %  {}, {} samples   ", 100 * p.share, p.what, p.samples)
-                  << std::flush;
+OnProgress on_line(const ProgressLine& line) {
+    const Progress progress = line.progress();
+    if (!progress) return {};
+    return [progress](const RunProgress& p) {
+        progress(fmt::format("{}, {} samples", p.what, p.samples), p.share);
     };
 }
 
@@ -115,7 +114,8 @@ Answer measured(BusSession& s, const Options& o) {
     Answer out;
     out.linear = master.scales().linear;
     master.set_limits(o.limits);
-    out.end = master.identify(plan, o.session, on_terminal(o.output));
+    const ProgressLine line(o.output);
+    out.end = master.identify(plan, o.session, on_line(line));
     if (out.end.fault.empty() || is_refusal(out.end.status.reason))
         out.results = master.results(plan);
     master.finish();
@@ -180,13 +180,14 @@ RunEnd moved(BusSession& s, const Options& o, const Experiment& experiment) {
     master.set_limits(o.limits);
     const double stands = master.position();
     RunEnd end;
+    const ProgressLine line(o.output);
     if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
         o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
-        end = master.move(approach(experiment, stands, experiment.start), on_terminal(o.output));
+        end = master.move(approach(experiment, stands, experiment.start), on_line(line));
         s.link().wait(0.5);
         if (end.fault.empty()) s.link().forget_telemetry();
     }
-    if (end.fault.empty()) end = master.move(experiment, on_terminal(o.output));
+    if (end.fault.empty()) end = master.move(experiment, on_line(line));
     master.finish();
     s.set_drive_counts(master.counts());
     return end;

@@ -70,9 +70,9 @@ std::string joined(const std::vector<std::string>& names) {
 
 void print_one(const Output& out, const EffectInfo& info) {
     out.line(out.bold(info.name));
-    out.line("  law        " + info.law);
-    out.line("  signature  " + info.signature);
-    out.line("  reference  " + info.reference);
+    out.line("  law        " + info.law, 11);
+    out.line("  signature  " + info.signature, 11);
+    out.line("  reference  " + info.reference, 11);
     if (!info.replaces.empty()) out.line("  replaces   " + joined(info.replaces));
     if (!info.needs.empty()) out.line("  needs      " + joined(info.needs));
     for (const ParameterInfo& p : info.parameters)
@@ -102,7 +102,7 @@ void run_effects(const Options& o) {
     Json all = Json::array();
     for (const Effect* effect : catalogue()) {
         all.push_back(to_json(effect->info()));
-        o.output.line(fmt::format("{:<22} {}", effect->info().name, effect->info().law));
+        o.output.line(fmt::format("{:<22} {}", effect->info().name, effect->info().law), 23);
     }
     o.output.print_json({{"schema", "servoid.effects/1"}, {"effects", all}});
 }

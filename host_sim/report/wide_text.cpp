@@ -79,6 +79,26 @@ size_t fitting(std::string_view text, int columns) {
     return text.size() - rest.size();
 }
 
+std::string_view without_end(std::string_view text) {
+    return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+// Where a word that is too long is broken: behind a comma in its second half, else anywhere.
+size_t broken_word(std::string_view text, int columns) {
+    const size_t most = fitting(text, columns);
+    const size_t comma = text.rfind(',', most - 1);
+    return comma != text.npos && comma > most / 2 ? comma + 1 : most;
+}
+
+// How much of a text goes into one line: all of it, up to a blank, or a part of its first word.
+size_t line_length(std::string_view text, int columns) {
+    if (display_width(text) <= columns) return text.size();
+    const size_t most = fitting(text, columns);
+    const size_t blank = most < text.size() && text[most] == ' ' ? most : text.rfind(' ', most);
+    const bool breaks = blank != text.npos && text.find_first_not_of(' ') < blank;
+    return breaks ? blank : broken_word(text, columns);
+}
+
 const char* ascii_of(uint32_t code) {
     static constexpr std::pair<uint32_t, const char*> table[] = {
         {0xB1, "+-"},     {0xB7, "*"},      {0xB2, "^2"},      {0xB3, "^3"},     {0xB0, " deg"},
@@ -125,39 +145,29 @@ std::string right_aligned(std::string_view text, int columns) {
 std::vector<std::string> wrapped(std::string_view text, int columns, int indent) {
     std::vector<std::string> out;
     const std::string space(size_t(std::clamp(indent, 0, columns / 2)), ' ');
-    for (std::string_view rest = text;;) {
+    std::string_view rest = without_end(text);
+    do {
         const std::string before = out.empty() ? "" : space;
-        const int room = columns - int(before.size());
-        if (display_width(rest) <= room) {
-            out.push_back(before + std::string(rest));
-            return out;
-        }
-        const size_t most = fitting(rest, room);
-        const size_t blank = most < rest.size() && rest[most] == ' ' ? most : rest.rfind(' ', most);
-        const bool breaks = blank != rest.npos && rest.find_first_not_of(' ') < blank;
-        std::string_view line = rest.substr(0, breaks ? blank : most);
-        rest.remove_prefix(line.size());
-        line.remove_suffix(line.size() - (line.find_last_not_of(' ') + 1));
+        const size_t length = line_length(rest, columns - int(before.size()));
+        out.push_back(before + std::string(without_end(rest.substr(0, length))));
+        rest.remove_prefix(length);
         rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-        out.push_back(before + std::string(line));
-        if (rest.empty()) return out;
-    }
+    } while (!rest.empty());
+    return out;
 }
 
 std::vector<std::string> wrapped_command(const std::vector<std::string>& words, int columns) {
     std::vector<std::string> out = {""};
     for (const std::string& word : words) {
-        const bool begins = out.back().find_first_not_of(' ') == std::string::npos;
-        const bool last = &word == &words.back();
-        const int room = columns - (last ? 0 : 2); // for the backslash that may follow
-        if (!begins && display_width(out.back()) + 1 + display_width(word) > room) {
+        const int room = columns - (&word == &words.back() ? 0 : 2); // " \\" may follow
+        if (!out.back().empty() && display_width(out.back()) + 1 + display_width(word) > room) {
             out.back() += " \\";
             out.push_back(std::string(kIndent, ' ') + word);
         } else
-            out.back() += (begins ? "" : " ") + word;
+            out.back() += (out.back().empty() ? "" : " ") + word;
         // Inside single quotes a backslash is only a backslash.
         while (display_width(out.back()) > room && word.find('\'') == word.npos) {
-            const size_t most = fitting(out.back(), std::min(room, columns - 1));
+            const size_t most = broken_word(out.back(), std::min(room, columns - 1));
             const std::string rest = out.back().substr(most);
             out.back() = out.back().substr(0, most) + "\\";
             out.push_back(rest);

@@ -19,7 +19,7 @@ std::string padded(std::string_view text, int columns);
 std::string right_aligned(std::string_view text, int columns);
 
 // Lines of at most so many columns, broken at blanks, further ones indented. A word that is longer
-// is cut. Blanks within a line stay as they are.
+// is broken, behind a comma if there is one. Blanks within a line stay, those at its end do not.
 std::vector<std::string> wrapped(std::string_view text, int columns, int indent);
 
 // Words as one shell command over several lines, each but the last with a backslash at its end: it
