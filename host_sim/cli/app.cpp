@@ -49,7 +49,7 @@ void Output::command(const std::vector<std::string>& words) const {
 }
 
 std::string Output::paint(Tone tone, const std::string& text) const {
-    if (!screen.colour || text.empty()) return text;
+    if (!screen.colour || text.find_first_not_of(' ') == text.npos) return text;
     static constexpr const char* codes[] = {"1", "2", "7", "32", "33", "35", "31", "36"};
     return fmt::format("\033[{}m{}\033[0m", codes[size_t(tone)], text);
 }
