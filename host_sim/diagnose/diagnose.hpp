@@ -65,7 +65,7 @@ struct DiagnoseOptions {
     bool look_ahead = true; // whether what would be left after the best candidate has a name too
     // Refine tells each rung when it is reached: the ladder, the result and the noise floor as
     // they are then. May be empty.
-    std::function<void(const Refinement&)> on_rung;
+    std::function<void(const Refinement&)> on_rung = {};
 };
 
 Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motions,
