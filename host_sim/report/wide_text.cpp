@@ -42,16 +42,24 @@ size_t escape_length(std::string_view text) {
     return std::min(end + 1, text.size());
 }
 
-size_t length_of(unsigned char lead) {
-    if (lead >= 0xF0) return 4;
-    if (lead >= 0xE0) return 3;
-    return lead >= 0xC0 ? 2 : 1;
+// Of the first character; a byte that begins none stands for itself.
+size_t character_length(std::string_view text) {
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    const size_t length = byte(0) < 0xC0   ? 1
+                          : byte(0) < 0xE0 ? 2
+                          : byte(0) < 0xF0 ? 3
+                          : byte(0) < 0xF8 ? 4
+                                           : 1;
+    if (length > text.size()) return 1;
+    for (size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0U) != 0x80) return 1;
+    return length;
 }
 
 Glyph first_glyph(std::string_view text) {
     if (const size_t escape = escape_length(text)) return {text.substr(0, escape), 0, 0};
     const auto lead = static_cast<unsigned char>(text[0]);
-    const size_t length = std::min(length_of(lead), text.size());
+    const size_t length = character_length(text);
     uint32_t code = length == 1 ? lead : lead & (0x7FU >> length);
     for (size_t i = 1; i < length; ++i)
         code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);

@@ -17,7 +17,7 @@ TEST(WideText, WidthIsColumnsNotBytes) {
     EXPECT_EQ(display_width("a\u0308"), 1); // a combining mark
     EXPECT_EQ(display_width("轴"), 2);
     EXPECT_EQ(display_width("\033[1;33mmissing\033[0m"), 7);
-    EXPECT_EQ(display_width("\xff\xe2\x82"), 2) << "half a character is one";
+    EXPECT_EQ(display_width("\xff\xe2\x82"), 3) << "bytes of no character";
 }
 
 TEST(WideText, ShortenedEndsWithADotsCharacter) {
