@@ -2,6 +2,7 @@
 // Formats and rules: SPEC.md, "Capture".
 #pragma once
 
+#include "common/progress.hpp"
 #include "model/model.hpp"
 
 #include <map>
@@ -73,7 +74,7 @@ CaptureScales scales_of(const Model& model);
 
 // Reads .csv or .mat by the file's ending. Throws FileError (`file:line: reason`).
 Capture read_capture(const std::string& path, const CaptureScales& scales = {},
-                     const SignalMap* map = nullptr);
+                     const SignalMap* map = nullptr, const Progress& progress = {});
 
 // The capture as CSV text in the stable format: header, metadata, rows that read back the same.
 std::string format_capture_csv(const Capture& capture);

@@ -13,7 +13,8 @@ namespace servoid {
 namespace {
 
 constexpr size_t longest_line = 64 * 1024;
-constexpr int unused = -1; // a field that no signal asks for
+constexpr size_t told_every = 16 * 1024; // rows
+constexpr int unused = -1;               // a field that no signal asks for
 
 // Digits of one printed number. Trailing zeros count: they were printed.
 void note_printing(std::string_view number, Printing& printing) {
@@ -40,8 +41,9 @@ void note_printing(std::string_view number, Printing& printing) {
 
 class CsvReader {
   public:
-    CsvReader(const std::string& text, const std::string& path, const SignalMap* map)
-        : rest_(text), map_(map) {
+    CsvReader(const std::string& text, const std::string& path, const SignalMap* map,
+              const Progress& progress)
+        : rest_(text), size_(text.size()), map_(map), progress_(progress) {
         table_.path = path;
         table_.metadata_path = path;
     }
@@ -180,9 +182,14 @@ class CsvReader {
             if (line_ != expected_line) table_.runs.emplace_back(rows, line_);
             expected_line = line_ + 1;
             read_row(line);
-            ++rows;
+            if (++rows % told_every == 0) tell_progress();
         }
         check_row_count(rows);
+    }
+
+    void tell_progress() const {
+        if (progress_)
+            progress_("reading " + table_.path, 1 - double(rest_.size()) / double(size_));
     }
 
     void reserve(size_t row_size) {
@@ -277,7 +284,9 @@ class CsvReader {
     }
 
     std::string_view rest_;
+    size_t size_; // of all of it
     const SignalMap* map_;
+    const Progress& progress_;
     RawTable table_;
     std::vector<std::string> names_; // of the header, in order
     std::vector<int> target_;        // field -> column of the table, or unused
@@ -286,8 +295,9 @@ class CsvReader {
 
 } // namespace
 
-RawTable read_csv(const std::string& text, const std::string& path, const SignalMap* map) {
-    return CsvReader(text, path, map).read();
+RawTable read_csv(const std::string& text, const std::string& path, const SignalMap* map,
+                  const Progress& progress) {
+    return CsvReader(text, path, map, progress).read();
 }
 
 } // namespace servoid

@@ -7,7 +7,8 @@
 namespace servoid {
 
 // Metadata, header and rows. With a map, the columns it names; without, every column must be known.
-RawTable read_csv(const std::string& text, const std::string& path, const SignalMap* map);
+RawTable read_csv(const std::string& text, const std::string& path, const SignalMap* map,
+                  const Progress& progress = {});
 
 // Names and duplicates: what can be said about the columns before their rows are read.
 void check_columns(const RawTable& table);

@@ -1,55 +1,63 @@
 #include "cli/app.hpp"
 
 #include "can/bus_log.hpp"
+#include "cli/progress.hpp"
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "report/wide_text.hpp"
 #include "servoid/sid_version.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <iostream>
+#include <limits>
 
 namespace servoid::cli {
+
+namespace {
+
+// Where stderr is no terminal as it is; else in lines of its width.
+void print_on_stderr(const std::string& text) {
+    for (const std::string& one : screen_of(STDERR_FILENO).lines_of(text))
+        std::cerr << one << '\n';
+}
+
+} // namespace
 
 void Output::print_json(const Json& object) const {
     if (json) std::cout << object.dump(2) << '\n' << std::flush;
 }
 
-void Output::line(const std::string& text) const {
-    if (!json && !quiet) std::cout << text << '\n';
+void Output::line(const std::string& text, int indent) const {
+    if (json || quiet) return;
+    for (const std::string& one : screen.lines_of(text, indent))
+        std::cout << one << '\n';
 }
 
 void Output::note(const std::string& text) const {
-    if (!quiet) std::cerr << text << '\n';
+    if (!quiet) print_on_stderr(text);
 }
 
-std::string Output::bold(const std::string& text) const {
-    return colour ? "\033[1m" + text + "\033[0m" : text;
+void Output::command(const std::vector<std::string>& words) const {
+    if (json || quiet) return;
+    const int columns = screen.terminal ? screen.columns : std::numeric_limits<int>::max();
+    for (const std::string& one : wrapped_command(words, columns))
+        std::cout << one << '\n';
 }
 
-std::string Output::dim(const std::string& text) const {
-    return colour ? "\033[2m" + text + "\033[0m" : text;
-}
-
-bool speaks_utf8() {
-    if (!isatty(STDOUT_FILENO)) return false;
-    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-        const char* value = std::getenv(name);
-        if (!value || !*value) continue; // the first one that is set decides
-        const std::string lower = lower_case(value);
-        return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
-    }
-    return false;
+std::string Output::paint(Tone tone, const std::string& text) const {
+    if (!screen.colour || text.find_first_not_of(' ') == text.npos) return text;
+    static constexpr const char* codes[] = {"1", "2", "7", "32", "33", "35", "31", "36"};
+    return fmt::format("\033[{}m{}\033[0m", codes[size_t(tone)], text);
 }
 
 void add_output_options(const Verb& verb, Output& output) {
     verb.add_flag("--json", output.json, "one JSON object on stdout, nothing else there");
     verb.add_flag("--quiet", output.quiet, "no text but errors");
-    const char* no_colour = std::getenv("NO_COLOR");
-    output.colour = isatty(STDOUT_FILENO) && !(no_colour && *no_colour);
+    output.screen = screen_of(STDOUT_FILENO);
 }
 
 void add_capture_options(const Verb& verb, CaptureOptions& options) {
@@ -74,10 +82,10 @@ std::vector<Capture> read_log(const std::string& path, const std::string& map,
 }
 
 std::vector<Capture> read_table(const std::string& path, const std::string& map,
-                                const CaptureScales& scales) {
+                                const CaptureScales& scales, const Progress& progress) {
     std::optional<SignalMap> columns;
     if (!map.empty()) columns = read_signal_map(map);
-    return {read_capture(path, scales, columns ? &*columns : nullptr)};
+    return {read_capture(path, scales, columns ? &*columns : nullptr, progress)};
 }
 
 void refuse_other_motion(const Capture& capture, const Model& model, const std::string& path) {
@@ -91,21 +99,22 @@ void refuse_other_motion(const Capture& capture, const Model& model, const std::
 } // namespace
 
 std::vector<Capture> CaptureOptions::read_files(const std::vector<std::string>& paths,
-                                                const Model* model) const {
+                                                const Model* model, const Output& output) const {
     const CaptureScales scales = model ? scales_of(*model) : CaptureScales{};
+    const ProgressLine line(output);
     std::vector<Capture> out;
     for (const std::string& path : paths)
         for (Capture& capture : lower_case(path).ends_with(".log")
                                     ? read_log(path, map, scales)
-                                    : read_table(path, map, scales)) {
+                                    : read_table(path, map, scales, line.progress())) {
             if (model) refuse_other_motion(capture, *model, path);
             out.push_back(std::move(capture));
         }
     return out;
 }
 
-std::vector<Capture> CaptureOptions::read(const Model* model) const {
-    return read_files(files, model);
+std::vector<Capture> CaptureOptions::read(const Model* model, const Output& output) const {
+    return read_files(files, model, output);
 }
 
 MotionOptions CaptureOptions::motion() const {
@@ -132,10 +141,10 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : int(ExitCode::usage);
     } catch (const Error& e) {
-        std::cerr << "servoid: " << e.what() << '\n';
+        print_on_stderr(std::string("servoid: ") + e.what());
         return int(e.code());
     } catch (const std::exception& e) {
-        std::cerr << "servoid: a defect of ours, please report it: " << e.what() << '\n';
+        print_on_stderr(std::string("servoid: a defect of ours, please report it: ") + e.what());
         return int(ExitCode::defect);
     }
 }

@@ -3,6 +3,7 @@
 
 #include "answers/json.hpp"
 #include "capture/capture.hpp"
+#include "cli/screen.hpp"
 #include "cli/verb.hpp"
 #include "compare/motion.hpp"
 #include "model/model.hpp"
@@ -13,24 +14,30 @@
 
 namespace servoid::cli {
 
+enum class Tone { bold, dim, inverse, green, yellow, magenta, red, cyan };
+
 // What every verb has.
 struct Output {
     bool json = false;
     bool quiet = false;
-    bool colour = false; // decided once: a terminal, and NO_COLOR not set
+    Screen screen; // what stdout is
 
     // One JSON object on stdout, or nothing where text was asked for.
     void print_json(const Json& object) const;
-    // A line of the answer on stdout (nothing under --json or --quiet).
-    void line(const std::string& text) const;
+    // A line of the answer on stdout (nothing under --json or --quiet). Where it is too long for
+    // the terminal, it goes on below, `indent` columns further in.
+    void line(const std::string& text, int indent = 2) const;
     // A remark on stderr (nothing under --quiet).
     void note(const std::string& text) const;
-    std::string bold(const std::string& text) const;
-    std::string dim(const std::string& text) const;
+    // A command to be pasted: where the terminal is narrow over several lines that a shell joins.
+    void command(const std::vector<std::string>& words) const;
+    // In colour where there is any.
+    std::string paint(Tone tone, const std::string& text) const;
+    std::string bold(const std::string& text) const { return paint(Tone::bold, text); }
+    std::string dim(const std::string& text) const { return paint(Tone::dim, text); }
+    // Whether text is looked at by somebody: pictures, colours, lines of the screen's width.
+    bool on_terminal() const { return screen.terminal && !json && !quiet; }
 };
-
-// A terminal that says it speaks UTF-8; a pipe or a file gets pictures in ASCII.
-bool speaks_utf8();
 
 // Options of every verb that reads captures.
 struct CaptureOptions {
@@ -39,13 +46,14 @@ struct CaptureOptions {
     std::optional<double> band_Hz;
     std::string input; // "", "ref", "measured"
 
-    std::vector<Capture> read(const Model* model) const;
-    std::vector<Capture> read_files(const std::vector<std::string>& paths,
-                                    const Model* model) const;
+    // With progress where the files are large.
+    std::vector<Capture> read(const Model* model, const Output& output) const;
+    std::vector<Capture> read_files(const std::vector<std::string>& paths, const Model* model,
+                                    const Output& output) const;
     MotionOptions motion() const;
 };
 
-// Adds --json and --quiet; colour is found out.
+// Adds --json and --quiet; what stdout is, is found out.
 void add_output_options(const Verb& verb, Output& output);
 void add_capture_options(const Verb& verb, CaptureOptions& options);
 

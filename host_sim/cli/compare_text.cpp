@@ -1,6 +1,9 @@
 #include "cli/compare_output.hpp"
+#include "cli/over_time_text.hpp"
 #include "cli/parameters.hpp"
+#include "report/bar.hpp"
 #include "report/sparkline.hpp"
+#include "report/wide_text.hpp"
 
 #include <fmt/format.h>
 
@@ -31,9 +34,8 @@ const char* in_words(BandLimit limit) {
     return "";
 }
 
-std::string bar(double share) {
-    return fmt::format("{:<20}", std::string(size_t(std::lround(20 * std::min(1.0, share))), '#'));
-}
+constexpr int kLabels = 15;    // columns before what is said in the summary
+constexpr double kDense = 1.5; // of its share of the samples: a regime to look at
 
 std::string meaning_of(const Estimate& lag) {
     if (std::abs(lag.value) <= 3 * lag.std) return "of the torque: none that can be told from 0";
@@ -44,32 +46,93 @@ std::string meaning_of(const Estimate& lag) {
 void print_summary(const Output& out, const Comparison& c) {
     out.line(fmt::format("torque error   {}   of {} rms, {:.3g} Hz band, {} samples, {:.4g} s",
                          out.bold(percent(c.torque_error)), c.torque_name, c.band_Hz, c.samples,
-                         c.duration_s));
-    out.line(fmt::format("band           {:.3g} Hz   {}", c.band_Hz, in_words(c.band_limited_by)));
+                         c.duration_s),
+             kLabels);
+    out.line(fmt::format("band           {:.3g} Hz   {}", c.band_Hz, in_words(c.band_limited_by)),
+             kLabels);
     out.line(fmt::format("noise floor    {}   from {}", percent(c.floor.ratio),
                          c.floor.from_repetition
                              ? fmt::format("{} repetitions", c.floor.periods)
-                             : std::string("the sensors' quantisation (nothing repeats)")));
+                             : std::string("the sensors' quantisation (nothing repeats)")),
+             kLabels);
     if (std::isfinite(c.floor.repeatable_share))
         out.line(fmt::format("repeatable     {}   of the residual's power: a better model could "
                              "explain it",
-                             percent(c.floor.repeatable_share)));
+                             percent(c.floor.repeatable_share)),
+                 kLabels);
     if (c.loop)
         out.line(fmt::format("closed loop    {}   of torque, {} of position",
-                             percent(c.loop->torque_error), percent(c.loop->position_error)));
+                             percent(c.loop->torque_error), percent(c.loop->position_error)),
+                 kLabels);
     if (c.lag_s)
         out.line(fmt::format("lag            {:.3g} ± {:.2g} ms   {}", 1e3 * c.lag_s->value,
-                             1e3 * c.lag_s->std, meaning_of(*c.lag_s)));
+                             1e3 * c.lag_s->std, meaning_of(*c.lag_s)),
+                 kLabels);
 }
 
 bool by_value(const Regime& r) { return std::isfinite(r.mean_residual); }
 
+// Columns of the table of shares. In a pipe they are what they always were.
+struct ShareColumns {
+    int name = 38, residual = 10, samples = 9, bar = 20;
+};
+
+ShareColumns share_columns(const Screen& screen) {
+    if (!screen.terminal) return {};
+    if (screen.columns < 56) return {screen.columns - 22, 8, 0, 8};
+    const int bar = std::clamp(screen.columns / 3 - 8, 10, 40);
+    return {std::min(38, screen.columns - 24 - bar), 8, 9, bar};
+}
+
+std::string share_bar(const Output& out, const Regime& r, int columns) {
+    const BarStyle style{columns, out.screen.utf8};
+    if (!out.screen.terminal) return padded(bar(r.residual_share, style), columns);
+    const MarkedBar b = marked_bar(r.residual_share, r.sample_share, style);
+    const bool dense = r.residual_share > kDense * r.sample_share;
+    const Tone tone = dense ? Tone::yellow : Tone::cyan;
+    return out.paint(tone, b.before) + b.mark + out.paint(tone, b.behind);
+}
+
+std::string share_row(const Screen& screen, const std::string& name, const std::string& residual,
+                      const std::string& samples) {
+    const ShareColumns columns = share_columns(screen);
+    const int width = columns.name + 2; // with the indent
+    std::string out = screen.cell(name, width) + " " + right_aligned(residual, columns.residual);
+    if (columns.samples > 0) out += " " + right_aligned(samples, columns.samples);
+    return out;
+}
+
 void print_shares(const Output& out, const Comparison& c) {
-    out.line("\nwhere it fails                              residual   samples");
+    const ShareColumns columns = share_columns(out.screen);
+    const char* key = !out.screen.terminal || columns.bar < 10 ? ""
+                      : out.screen.utf8                        ? "   │ samples"
+                                                               : "   | samples";
+    out.line("\n" + share_row(out.screen, "where it fails", "residual", "samples") + key);
     for (const Regime& r : c.where)
         if (!by_value(r))
-            out.line(fmt::format("  {:<38} {:>10} {:>9}   {}", r.regime, percent(r.residual_share),
-                                 percent(r.sample_share), bar(r.residual_share)));
+            out.line(share_row(out.screen, "  " + r.regime, percent(r.residual_share),
+                               percent(r.sample_share)) +
+                     "   " + share_bar(out, r, columns.bar));
+}
+
+// Which columns of the table of means there is room for.
+struct MeanColumns {
+    int range = 24;
+    bool density = true;
+};
+
+MeanColumns mean_columns(const Screen& screen) {
+    if (!screen.terminal || screen.columns >= 72) return {};
+    return {screen.columns >= 58 ? screen.columns - 38 : 0, false};
+}
+
+std::string mean_row(const Screen& screen, const std::string& means, const std::string& range,
+                     const std::string& density, const std::string& mean) {
+    const MeanColumns columns = mean_columns(screen);
+    std::string out = screen.cell(means, 24) + "  ";
+    if (columns.range > 0) out += screen.cell(range, columns.range) + " ";
+    if (columns.density) out += right_aligned(density, 7) + " ";
+    return out + right_aligned(mean, 11);
 }
 
 // The bins of one group as a row of characters, and the one that holds most for its samples.
@@ -83,11 +146,10 @@ void print_group(const Output& out, const std::vector<Regime>& bins, double full
             return density(a) < density(b);
         });
     const std::string range = most.regime.substr(most.group.size() + 1);
-    // Blocks are three bytes each, which a field width would count.
-    const std::string space(8 - std::min<size_t>(8, bins.size()), ' ');
-    out.line(fmt::format("  {:<13} {}{}  {:<24} {:>7} {:>11.3g}", most.group,
-                         sparkline(means, full_scale, speaks_utf8()), space, range,
-                         fmt::format("x {:.3g}", density(most)), most.mean_residual));
+    const std::string row = sparkline(means, full_scale, out.screen.utf8);
+    out.line(mean_row(out.screen, fmt::format("  {:<13} {}", most.group, row), range,
+                      fmt::format("x {:.3g}", density(most)),
+                      fmt::format("{:.3g}", most.mean_residual)));
 }
 
 void print_means(const Output& out, const Comparison& c) {
@@ -98,8 +160,8 @@ void print_means(const Output& out, const Comparison& c) {
         groups.back().push_back(r);
     }
     if (groups.empty()) return;
-    out.line(fmt::format("\n{:<24}  {:<24} {:>7} {:>11}", "mean residual, low…high", "densest at",
-                         "density", "mean, " + c.torque_unit));
+    out.line("\n" + mean_row(out.screen, "mean residual, low…high", "densest at", "density",
+                             "mean, " + c.torque_unit));
     for (const std::vector<Regime>& bins : groups)
         print_group(out, bins, c.residual_rms);
 }
@@ -119,20 +181,27 @@ void print_lines(const Output& out, const Lines& lines) {
         {fmt::format("{} even", n.even), "direction, place, gravity", &LineKinds::even, n.even}};
     const std::string base =
         std::isfinite(lines.base_Hz) ? fmt::format(" of {:.4g} Hz", lines.base_Hz) : "";
-    out.line(
-        fmt::format("\n{:<22} {:>9} {:>9} {:>9}", "lines" + base, "residual", "torque", "noise"));
+    const int room = out.screen.terminal ? out.screen.columns : 80;
+    const auto row = [&](const std::string& name, const std::string& residual,
+                         const std::string& torque, const std::string& noise) {
+        const std::string cells = fmt::format("{:<22} {:>8} {:>8}", name, residual, torque);
+        return room < 52 ? cells
+                         : fmt::format("{:<22} {:>9} {:>9} {:>9}", name, residual, torque, noise);
+    };
+    out.line("\n" + row("lines" + base, "residual", "torque", "noise"));
     for (const Kind& kind : kinds) {
         if (!std::isfinite(lines.residual.*kind.power)) continue;
-        out.line(fmt::format("  {:<20} {:>9} {:>9} {:>9}  {}", kind.name,
-                             percent(lines.residual.*kind.power), percent(lines.torque.*kind.power),
-                             percent(lines.noise.*kind.power), kind.meaning));
+        out.line(row("  " + kind.name, percent(lines.residual.*kind.power),
+                     percent(lines.torque.*kind.power), percent(lines.noise.*kind.power)) +
+                 (room < 80 ? "" : std::string("  ") + kind.meaning));
     }
 }
 
 } // namespace
 
-void print_comparison(const Output& out, const Comparison& c) {
+void print_comparison(const Output& out, const Comparison& c, const std::vector<TimePart>& parts) {
     print_summary(out, c);
+    print_over_time(out, parts, c.torque_unit);
     print_shares(out, c);
     print_means(out, c);
     if (c.lines) print_lines(out, *c.lines);

@@ -37,7 +37,7 @@ void run_add(const Options& o) {
     if (is_custom(o.effect)) law = parse_custom(o.effect);
     const std::string name = law ? law->name : o.effect;
     const Model model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<Capture> captures = o.captures.read(&model, o.output);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const std::vector<std::string> warnings = check_capture(model, motions, o.output);
     const Addition a = law ? add_law(model, *law, motions) : add_effect(model, name, motions);

@@ -4,15 +4,14 @@
 #include "cli/bus_output.hpp"
 #include "cli/bus_session.hpp"
 #include "cli/identify_output.hpp"
+#include "cli/progress.hpp"
 #include "common/error.hpp"
 #include "diagnose/diagnose.hpp"
 #include "node/go_and_move.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include <iostream>
 #include <limits>
 #include <memory>
 
@@ -34,11 +33,11 @@ struct Options {
     CaptureOptions captures;
 };
 
-OnProgress on_terminal(const Output& output) {
-    if (output.quiet || !isatty(STDERR_FILENO)) return {};
-    return [](const RunProgress& p) {
-        std::cerr << fmt::format("\r{:3.0f} %  {}, {} samples   ", 100 * p.share, p.what, p.samples)
-                  << std::flush;
+OnProgress on_line(const ProgressLine& line) {
+    const Progress progress = line.progress();
+    if (!progress) return {};
+    return [progress](const RunProgress& p) {
+        progress(fmt::format("{}, {} samples", p.what, p.samples), p.share);
     };
 }
 
@@ -114,7 +113,8 @@ Answer measured(BusSession& s, const Options& o) {
     Answer out;
     out.linear = master.scales().linear;
     master.set_limits(o.limits);
-    out.end = master.identify(plan, o.session, on_terminal(o.output));
+    const ProgressLine line(o.output);
+    out.end = master.identify(plan, o.session, on_line(line));
     if (out.end.fault.empty() || is_refusal(out.end.status.reason))
         out.results = master.results(plan);
     master.finish();
@@ -158,7 +158,8 @@ Json move_json(const Options& o, const RunEnd& end, const std::optional<can::Bus
 RunEnd moved(BusSession& s, const Options& o, const Experiment& experiment) {
     Master master(s.link());
     master.set_limits(o.limits);
-    const RunEnd end = go_and_move(master, s.link(), experiment, on_terminal(o.output),
+    const ProgressLine line(o.output);
+    const RunEnd end = go_and_move(master, s.link(), experiment, on_line(line),
                                    [&](const std::string& text) { o.output.note(text); });
     s.set_drive_counts(master.counts());
     return end;
@@ -178,7 +179,7 @@ void run_move(const Options& o) {
 // What `diagnose` would record next, recorded.
 void run_next(Options o) {
     const Model model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<Capture> captures = o.captures.read(&model, o.output);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const Diagnosis d = diagnose(model, motions);
     o.output.note(std::string(verdict_name(d.verdict)) + ": " + d.advice);

@@ -3,6 +3,7 @@
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
 #include "cli/compare_output.hpp"
+#include "cli/over_time_text.hpp"
 #include "cli/parameters.hpp"
 #include "compare/compare.hpp"
 
@@ -22,7 +23,7 @@ struct Options {
 
 void run_compare(const Options& o) {
     const Model model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(&model);
+    const std::vector<Capture> captures = o.captures.read(&model, o.output);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     std::vector<std::string> warnings = check_capture(model, motions, o.output);
     warn_of_zero(model, motions.front(), warnings, o.output);
@@ -31,7 +32,10 @@ void run_compare(const Options& o) {
     Json json = compare_json(c, warnings);
     add_homing(json, zeros);
     o.output.print_json(json);
-    print_comparison(o.output, c);
+    std::vector<TimePart> parts;
+    if (o.output.on_terminal())
+        parts = residual_over_time(model, c.homing, motions, parts_on(o.output.screen));
+    print_comparison(o.output, c, parts);
     print_homing(o.output, zeros);
 }
 

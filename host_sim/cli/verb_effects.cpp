@@ -31,7 +31,8 @@ Json picture_json(const Signature& s) {
 
 void print_picture(const Output& out, const Signature& s, const Picture& picture) {
     TextPlot plot;
-    plot.braille = speaks_utf8();
+    plot.braille = out.screen.utf8;
+    if (out.screen.terminal) plot.columns = std::min(plot.columns, out.screen.columns - 12);
     plot.smallest_range = s.smallest_range;
     plot.x_label = s.x_name + ", " + s.x_unit;
     plot.y_label = s.y_name + ", " + s.y_unit;
@@ -69,9 +70,9 @@ std::string joined(const std::vector<std::string>& names) {
 
 void print_one(const Output& out, const EffectInfo& info) {
     out.line(out.bold(info.name));
-    out.line("  law        " + info.law);
-    out.line("  signature  " + info.signature);
-    out.line("  reference  " + info.reference);
+    out.line("  law        " + info.law, 11);
+    out.line("  signature  " + info.signature, 11);
+    out.line("  reference  " + info.reference, 11);
     if (!info.replaces.empty()) out.line("  replaces   " + joined(info.replaces));
     if (!info.needs.empty()) out.line("  needs      " + joined(info.needs));
     for (const ParameterInfo& p : info.parameters)
@@ -101,7 +102,7 @@ void run_effects(const Options& o) {
     Json all = Json::array();
     for (const Effect* effect : catalogue()) {
         all.push_back(to_json(effect->info()));
-        o.output.line(fmt::format("{:<22} {}", effect->info().name, effect->info().law));
+        o.output.line(fmt::format("{:<22} {}", effect->info().name, effect->info().law), 23);
     }
     o.output.print_json({{"schema", "servoid.effects/1"}, {"effects", all}});
 }

@@ -80,7 +80,7 @@ void print(const Output& out, const FrictionResult& r, const Units& u) {
 void run_friction(const Options& o) {
     std::optional<Model> model;
     if (!o.model.empty()) model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(model ? &*model : nullptr);
+    const std::vector<Capture> captures = o.captures.read(model ? &*model : nullptr, o.output);
     std::vector<SpeedRun> runs;
     for (const Capture& capture : captures)
         for (const SpeedRun& run : find_runs(capture, o.captures.motion().input))

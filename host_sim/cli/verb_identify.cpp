@@ -18,7 +18,7 @@ struct Options {
 void run_identify(const Options& o) {
     const std::optional<Model> model = o.identify.read_model();
     const Model* known = model ? &*model : nullptr;
-    const std::vector<Capture> captures = o.captures.read(known);
+    const std::vector<Capture> captures = o.captures.read(known, o.output);
     const auto all = identify_all(captures, o.identify.options(known));
     o.output.print_json(identification_json(all, captures.front()));
     print_identification(o.output, all, captures.front());

@@ -1,8 +1,9 @@
 // servoid report: the whole story of a model and its captures as one page.
 #include "answers/diagnose_json.hpp"
-#include "cli/add_command.hpp"
 #include "cli/app.hpp"
 #include "cli/check_capture.hpp"
+#include "cli/diagnose_output.hpp"
+#include "cli/next_commands.hpp"
 #include "cli/progress.hpp"
 #include "common/file.hpp"
 #include "page/page.hpp"
@@ -60,25 +61,30 @@ void answer(const Options& o, const Diagnosis& d, size_t bytes) {
                          {"bytes", bytes},
                          {"verdict", verdict_name(d.verdict)},
                          {"advice", d.advice}});
-    o.output.line(fmt::format("{}   {}", o.output.bold(verdict_name(d.verdict)), d.advice));
+    o.output.line(fmt::format("{}   {}", badge(o.output, d.verdict), d.advice));
     o.output.line(fmt::format("wrote {} ({:.2f} MB)", o.out, 1e-6 * double(bytes)));
 }
 
 void run_report(const Options& o) {
     const Model model = read_model(o.model);
-    const std::vector<Capture> captures = o.captures.read(&model);
-    const std::vector<Capture> unseen = o.captures.read_files(o.validate, &model);
+    const std::vector<Capture> captures = o.captures.read(&model, o.output);
+    const std::vector<Capture> unseen = o.captures.read_files(o.validate, &model, o.output);
     const std::vector<PreparedMotion> motions = prepare_all(captures, o.captures.motion());
     const std::vector<PreparedMotion> validation = prepare_all(unseen, o.captures.motion());
     const Warnings warnings = check_capture(model, motions, o.output);
-    const Diagnosis d = diagnose(model, motions, with_progress(o.output));
+    const ProgressLine line(o.output);
+    DiagnoseOptions options;
+    options.progress = named("diagnose: ", line.progress());
+    const Diagnosis d = diagnose(model, motions, options);
     std::optional<Refinement> r;
-    if (lacks_something(d) && !o.no_refine)
-        r = refine(model, motions, validation, with_progress(o.output));
+    options.progress = named("refine: ", line.progress());
+    if (lacks_something(d) && !o.no_refine) r = refine(model, motions, validation, options);
+    line.phase("drawing the page");
     const StoryInput input{model, motions,           d.before.model, &d.before,
                            &d,    r ? &*r : nullptr, warnings,       provenance_of(o)};
     const std::string page = report_page(make_story(input));
     write_file(o.out, page);
+    line.clear();
     answer(o, d, page.size());
     refuse_if_insufficient(d);
 }

@@ -1,6 +1,7 @@
 // servoid simulate: a capture of the simulated drive.
 #include "can/bus_log.hpp"
 #include "cli/app.hpp"
+#include "cli/progress.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "mystery/mystery.hpp"
@@ -27,9 +28,12 @@ struct Options {
 // The capture, with one effect more than the model says where a mystery was asked for.
 Capture make_capture(const Options& o, const Model& model) {
     const Experiment experiment = parse_experiment(o.experiment);
-    if (!o.mystery) return simulate(model, experiment, o.seed);
+    const ProgressLine line(o.output);
+    if (!o.mystery) return simulate(model, experiment, o.seed, line.progress());
+    line.phase("choosing what to hide");
     const Mystery mystery = make_mystery(model, experiment, *o.mystery, o.seed);
-    Capture capture = simulate(with_hidden(model, mystery.hidden), experiment, o.seed);
+    Capture capture =
+        simulate(with_hidden(model, mystery.hidden), experiment, o.seed, line.progress());
     capture.metadata[kMysteryKey] = std::to_string(mystery.seed);
     capture.metadata[kSecretKey] = encode_secret(mystery);
     return capture;

@@ -1,7 +1,7 @@
 // servoid studio: the page, live, on this machine.
-#include "cli/add_command.hpp"
 #include "cli/app.hpp"
 #include "cli/end_on_signal.hpp"
+#include "cli/next_commands.hpp"
 #include "common/error.hpp"
 #include "studio/server.hpp"
 

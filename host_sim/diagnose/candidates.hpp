@@ -1,10 +1,10 @@
 // Every effect of the catalogue that may stand in a model, fitted together with all of it.
 #pragma once
 
+#include "common/progress.hpp"
 #include "compare/regression.hpp"
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +24,6 @@ struct Candidate {
     double noise_gain = NAN; // fall of ln(error) that noise alone would cause; NaN: not asked
     bool sound = false;      // fitted, every parameter determined and off its bounds
 };
-
-using Progress = std::function<void(const std::string& effect, double share)>; // may be empty
 
 // Which effects are tried: those that are only solved for cost a tenth of those that are searched.
 enum class Tried { all, solved, searched };

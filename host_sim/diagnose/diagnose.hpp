@@ -8,6 +8,7 @@
 #include "diagnose/probe.hpp"
 #include "diagnose/unseen.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,14 @@ struct Diagnosis {
 // Share of the residual's held-out power that a candidate takes away.
 double gain_of(const Diagnosis& diagnosis, const Candidate& candidate);
 
+struct Refinement;
+
 struct DiagnoseOptions {
-    Progress progress;
+    Progress progress;      // of one pass over the catalogue; refine makes several
     bool look_ahead = true; // whether what would be left after the best candidate has a name too
+    // Refine tells each rung when it is reached: the ladder, the result and the noise floor as
+    // they are then. May be empty.
+    std::function<void(const Refinement&)> on_rung = {};
 };
 
 Diagnosis diagnose(const Model& model, const std::vector<PreparedMotion>& motions,

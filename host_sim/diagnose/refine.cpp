@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace servoid {
 
@@ -82,6 +83,13 @@ void prune(Refinement& r, Assembler& assembler, size_t given) {
     }
 }
 
+// The next rung of the ladder, told to whoever listens.
+void climb(Refinement& r, Rung rung, const DiagnoseOptions& options) {
+    r.ladder.push_back(std::move(rung));
+    r.noise_floor = r.last.noise_floor;
+    if (options.on_rung) options.on_rung(r);
+}
+
 } // namespace
 
 Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions,
@@ -92,8 +100,8 @@ Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions
     step_options.look_ahead = false;
     r.last = diagnose(model, motions, step_options);
     r.result = r.last.before;
-    r.ladder.push_back(
-        {"", r.result.torque_error, validation_error(r.result, assembler, validation)});
+    climb(r, {"", r.result.torque_error, validation_error(r.result, assembler, validation)},
+          options);
     for (int rung = 0; rung < kMostRungs; ++rung) {
         if (r.last.verdict == Verdict::adequate || r.last.verdict == Verdict::insufficient) break;
         const Candidate* step = next_step(r.last);
@@ -103,7 +111,7 @@ Refinement refine(const Model& model, const std::vector<PreparedMotion>& motions
         const double validated = validation_error(taken, assembler, validation);
         if (!validation.empty() && validated > 0.999 * r.ladder.back().validation_error) break;
         r.result = taken;
-        r.ladder.push_back({added, taken.torque_error, validated});
+        climb(r, {added, taken.torque_error, validated}, options);
         r.last = diagnose(r.result.model, motions, step_options);
     }
     prune(r, assembler, model.effects.size());

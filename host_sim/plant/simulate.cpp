@@ -6,7 +6,14 @@
 
 namespace servoid {
 
-SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed) {
+namespace {
+
+constexpr long kToldEvery = 1024; // rows
+
+} // namespace
+
+SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed,
+                          const Progress& progress) {
     DriveOptions options;
     options.seed = seed, options.torque_noise = experiment.torque_noise;
     SimulatedDrive drive(model, options);
@@ -24,6 +31,7 @@ SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsi
     const double shift = experiment.start - experiment.position_ref(0);
     const long rows = std::lround(experiment.duration_s / out.sample_time_s);
     for (long i = 0; i < rows; ++i) {
+        if (progress && i % kToldEvery == 0) progress("simulating", double(i) / double(rows));
         const double t = double(i) * out.sample_time_s;
         const DriveSample s = drive.step(experiment.position_ref(t) + shift);
         out.time_s.push_back(t);
@@ -35,8 +43,9 @@ SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsi
     return {std::move(out), drive.saturated()};
 }
 
-Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed) {
-    return simulate_run(model, experiment, seed).capture;
+Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed,
+                 const Progress& progress) {
+    return simulate_run(model, experiment, seed, progress).capture;
 }
 
 } // namespace servoid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/capture.hpp"
+#include "common/progress.hpp"
 #include "plant/drive.hpp"
 #include "plant/experiment.hpp"
 
@@ -12,7 +13,9 @@ struct SimulatedRun {
     bool saturated = false; // the loop met its torque limit
 };
 
-SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed);
-Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed);
+SimulatedRun simulate_run(const Model& model, const Experiment& experiment, unsigned long seed,
+                          const Progress& progress = {});
+Capture simulate(const Model& model, const Experiment& experiment, unsigned long seed,
+                 const Progress& progress = {});
 
 } // namespace servoid
