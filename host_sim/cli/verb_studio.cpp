@@ -36,7 +36,7 @@ std::string command_of(const Options& o) {
 std::vector<studio::Recording> recordings_of(const Options& o, const Model& model) {
     std::vector<studio::Recording> out;
     for (const std::string& file : o.captures.files)
-        for (Capture& capture : o.captures.read_files({file}, &model))
+        for (Capture& capture : o.captures.read_files({file}, &model, o.output))
             out.push_back({std::move(capture), source_file(file), true});
     return out;
 }
@@ -44,15 +44,18 @@ std::vector<studio::Recording> recordings_of(const Options& o, const Model& mode
 studio::Setup setup_of(const Options& o) {
     const Model model = read_model(o.model);
     const CaptureOptions captures = o.captures;
-    return {
-        model,
-        source_file(o.model),
-        recordings_of(o, model),
-        o.captures.motion(),
-        {command_of(o)},
-        [captures, model](const std::string& path) { return captures.read_files({path}, &model); },
-        o.bus,
-        !o.no_diagnose};
+    Output silent; // the page shows how far it is
+    silent.quiet = true;
+    return {model,
+            source_file(o.model),
+            recordings_of(o, model),
+            o.captures.motion(),
+            {command_of(o)},
+            [captures, model, silent](const std::string& path) {
+                return captures.read_files({path}, &model, silent);
+            },
+            o.bus,
+            !o.no_diagnose};
 }
 
 void run_studio(const Options& o) {
