@@ -112,9 +112,9 @@ block() { # WHERE INFO SCRIPT FOLDER
     esac
 }
 
-links() { # DOCUMENT: what [text](file) and ![text](file) point at
+links() { # DOCUMENT: what [text](file) and ![text](file) point at, outside fenced blocks
     local target
-    for target in $(grep -oE '\]\([^)# ]+' "$1" | grep -v '(https*:' | sed 's/^](//' || true); do
+    for target in $(awk '/^ *```/ { inside = !inside } !inside' "$1" | grep -oE '\]\([^)# ]+' | grep -v '(https*:' | sed 's/^](//' || true); do
         [ -e "$(dirname "$1")/$target" ] || fail "$1" "the link to $target leads nowhere"
     done
 }
