@@ -16,8 +16,8 @@
 # found there, in order, blanks aside, numbers within 2 % or one of their last digit, bars of any length
 # (tests/docs/shows.awk); a line `...` or `…` stands for whatever was left out. `text elsewhere` shows
 # something else, or what differs from run to run, such as seconds.
-# A ```c block marked `compiles` goes through the compiler with every warning; ```c or ```cpp marked `from FILE`
-# must stand in that file, line by line. A block of neither kind is an error, and so are a link to a file that is
+# A ```c block marked `compiles` goes through the compiler with every warning; ```c, ```cpp or ```text marked
+# `from FILE` must stand in that file, line by line. A block of neither kind is an error, and so are a link to a file that is
 # not there and a document without any.
 set -euo pipefail
 export LC_ALL=C
@@ -101,12 +101,12 @@ block() { # WHERE INFO SCRIPT FOLDER
     [[ ! $2 =~ ^sh ]] || last_sh="$2 "
     case "$2 " in
     "text elsewhere "*) ;;
+    "c from "* | "cpp from "* | "text from "*) [ $kind != runnable ] || excerpt_block "$1" "${2#* from }" "$3" ;;
     "text "*) shown_block "$1" "$3" ;;
     "sh runnable "*) [ $kind != runnable ] || run_block "$@" ;;
     "sh measured "*) [ $kind != measured ] || run_block "$@" ;;
     "sh live "*) [ $kind != live ] || run_block "$@" ;;
     "sh elsewhere "*) commands_exist "$1" "$3" ;;
-    "c from "* | "cpp from "*) [ $kind != runnable ] || excerpt_block "$1" "${2#* from }" "$3" ;;
     "c compiles "*) [ $kind != runnable ] || compile_block "$1" "$3" ;;
     "sh "* | "bash "* | "c "* | "cpp "*) fail "$1" "\`\`\`$2: not marked (see tests/docs/test_docs.sh)" ;;
     esac
