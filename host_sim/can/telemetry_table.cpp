@@ -96,6 +96,26 @@ std::optional<double> TelemetryTable::position() const {
            (description_->position_bits == 32 ? double(std::int32_t(raw)) : double(raw));
 }
 
+LiveRows TelemetryTable::newest(double span_s, std::size_t most) const {
+    LiveRows out;
+    if (!description_ || all_.empty()) return out;
+    const TelemetryDescription& d = *description_;
+    const auto count = std::min(all_.size(), std::size_t(span_s / d.sample_time_s()) + 1);
+    const std::size_t first = all_.size() - count, every = count / most + 1;
+    const std::int64_t start = runs_.empty() ? all_.front().tick : runs_.back().start;
+    std::uint32_t before = all_[first].row.position_raw;
+    std::int64_t at = d.position_bits == 32 ? std::int32_t(before) : std::int64_t(before);
+    for (std::size_t i = first; i < all_.size(); i += every) {
+        const TelemetryRow& row = all_[i].row;
+        at += difference(row.position_raw, before, d.position_bits);
+        before = row.position_raw;
+        out.time_s.push_back(double(all_[i].tick - start) * d.sample_time_s());
+        out.torque.push_back(d.rated_torque * std::ldexp(double(row.torque_pu_q20), -20));
+        out.position.push_back(d.count * double(at));
+    }
+    return out;
+}
+
 std::vector<TelemetryTable::Row> TelemetryTable::sorted(BusReport& report) const {
     std::vector<Row> out = all_;
     std::stable_sort(out.begin(), out.end(),

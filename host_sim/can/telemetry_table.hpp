@@ -11,6 +11,12 @@
 
 namespace servoid::can {
 
+// The newest rows, for who looks on while they arrive.
+struct LiveRows {
+    std::vector<double> time_s; // since the start of the run
+    std::vector<double> torque, position;
+};
+
 // Collects the telemetry of one node in the order of its arrival. The drive's own tick says when a
 // row was sampled, so arrival times do not matter at all. A row counts once, however often it came;
 // rows that come late are put in their place; what is missing splits the capture. A tick that goes
@@ -27,6 +33,9 @@ class TelemetryTable {
     long rows() const { return long(all_.size()); }
     // Of the newest row, rad or m from the encoder's zero; nothing before there is a description.
     std::optional<double> position() const;
+    // At most `most` of the rows of the last `span_s`, evenly taken, in the order of their arrival;
+    // none before there is a description.
+    LiveRows newest(double span_s, std::size_t most) const;
     // Newest state, and how far a streamed move has come.
     std::uint8_t state() const { return state_; }
     const TelemetryProgress& progress() const { return progress_; }

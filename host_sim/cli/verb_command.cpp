@@ -6,13 +6,12 @@
 #include "cli/identify_output.hpp"
 #include "common/error.hpp"
 #include "diagnose/diagnose.hpp"
-#include "node/master.hpp"
+#include "node/go_and_move.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <cmath>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -156,38 +155,11 @@ Json move_json(const Options& o, const RunEnd& end, const std::optional<can::Bus
     return json;
 }
 
-// A half cosine from where the axis stands to where the experiment begins, no faster than the
-// experiment itself is at most.
-Experiment approach(const Experiment& experiment, double from, double to) {
-    double fastest = 0;
-    const double h = experiment.duration_s / 1000;
-    for (int i = 1; i <= 1000; ++i)
-        fastest = std::max(
-            fastest,
-            std::fabs(experiment.position_ref(i * h) - experiment.position_ref((i - 1) * h)) / h);
-    Experiment out;
-    const double pi = std::acos(-1.0), way = to - from;
-    out.text = "approach";
-    out.duration_s = std::max(0.2, pi / 2 * std::fabs(way) / std::max(fastest / 2, 1e-9));
-    out.position_ref = [=, d = out.duration_s](double t) {
-        return from + way * (1 - std::cos(pi * std::min(1.0, t / d))) / 2;
-    };
-    return out;
-}
-
 RunEnd moved(BusSession& s, const Options& o, const Experiment& experiment) {
     Master master(s.link());
     master.set_limits(o.limits);
-    const double stands = master.position();
-    RunEnd end;
-    if (experiment.start != 0 && std::fabs(experiment.start - stands) > master.scales().count) {
-        o.output.note(fmt::format("going from {:.4g} to {:.4g} first", stands, experiment.start));
-        end = master.move(approach(experiment, stands, experiment.start), on_terminal(o.output));
-        s.link().wait(0.5);
-        if (end.fault.empty()) s.link().forget_telemetry();
-    }
-    if (end.fault.empty()) end = master.move(experiment, on_terminal(o.output));
-    master.finish();
+    const RunEnd end = go_and_move(master, s.link(), experiment, on_terminal(o.output),
+                                   [&](const std::string& text) { o.output.note(text); });
     s.set_drive_counts(master.counts());
     return end;
 }

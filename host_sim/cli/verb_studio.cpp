@@ -22,6 +22,7 @@ struct Options {
     std::string model;
     int port = 0;
     bool no_diagnose = false;
+    studio::BusSetup bus;
 };
 
 std::string command_of(const Options& o) {
@@ -50,6 +51,7 @@ studio::Setup setup_of(const Options& o) {
         o.captures.motion(),
         {command_of(o)},
         [captures, model](const std::string& path) { return captures.read_files({path}, &model); },
+        o.bus,
         !o.no_diagnose};
 }
 
@@ -78,10 +80,19 @@ void add_studio(CLI::App& app) {
     verb.add_option("--port", o->port, "to listen on (default: any that is free)")
         .between(1, 65535);
     verb.add_flag("--no-diagnose", o->no_diagnose, "diagnose only when asked");
+    verb.add_option("--can", o->bus.interface, "run experiments on a drive of this bus: can0");
+    verb.add_option("--node", o->bus.link.node, "number of the drive (default 1)").between(1, 127);
+    verb.add_option("--torque-limit", o->bus.limits.torque,
+                    "N·m or N at which the drive holds its axis (default: its own)")
+        .positive();
+    verb.add_option("--stroke", o->bus.limits.stroke,
+                    "rad or m from the start of a run at which the drive holds its axis")
+        .positive();
     add_capture_options(verb, o->captures);
     add_output_options(verb, o->output);
     verb.examples("  servoid studio model.toml run.csv\n"
-                  "  servoid studio model.toml a.csv b.csv --port 8080");
+                  "  servoid studio model.toml a.csv b.csv --port 8080\n"
+                  "  servoid studio model.toml run.csv --can can0 --stroke 6.5");
     verb.callback([o] { run_studio(*o); });
 }
 

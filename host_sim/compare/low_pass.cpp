@@ -1,7 +1,9 @@
 #include "compare/low_pass.hpp"
 
+#include <array>
+#include <atomic>
 #include <cmath>
-#include <map>
+#include <deque>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -37,9 +39,11 @@ double window(double u, int derivative) {
 
 } // namespace
 
+// Looked up at every instant by two threads: only who finds nothing takes the lock.
 struct LowPass::Cache {
     std::mutex mutex;
-    std::map<std::pair<int, int>, Taps> taps;
+    std::array<std::array<std::atomic<const Taps*>, kPhases + 1>, 3> found{};
+    std::deque<Taps> taps; // references stay valid while others are added
 };
 
 LowPass::LowPass(double sample_time_s, double band_Hz)
@@ -83,16 +87,14 @@ LowPass::Taps LowPass::taps(double phase, int derivative) const {
     return Taps(taps.begin(), taps.end());
 }
 
-// References into a map stay valid while others are added.
 const LowPass::Taps& LowPass::cached_taps(int phase, int derivative) const {
+    auto& place = cache_->found[size_t(derivative)][size_t(phase)];
+    if (const Taps* found = place.load(std::memory_order_acquire)) return *found;
     const std::lock_guard lock(cache_->mutex);
-    auto found = cache_->taps.find({phase, derivative});
-    if (found == cache_->taps.end())
-        found =
-            cache_->taps
-                .emplace(std::pair{phase, derivative}, taps(double(phase) / kPhases, derivative))
-                .first;
-    return found->second;
+    if (const Taps* found = place.load(std::memory_order_relaxed)) return *found;
+    cache_->taps.push_back(taps(double(phase) / kPhases, derivative));
+    place.store(&cache_->taps.back(), std::memory_order_release);
+    return cache_->taps.back();
 }
 
 Eigen::VectorXd LowPass::apply(const Eigen::VectorXd& x, const Grid& grid, int derivative,

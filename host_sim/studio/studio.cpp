@@ -178,11 +178,59 @@ void Studio::walk(const Json& action) {
     });
 }
 
+StepPtr Studio::with_more(const Step& from, Recordings more, const std::string& what) const {
+    Recordings all = from.material->recordings();
+    all.insert(all.end(), more.begin(), more.end());
+    return with_material(from, std::make_shared<const Material>(all, setup_.motion), what);
+}
+
 void Studio::take(Recordings more, const std::string& what) {
     change(what, [this, more = std::move(more), what](const Step& from, const Progress&) {
-        Recordings all = from.material->recordings();
-        all.insert(all.end(), more.begin(), more.end());
-        return with_material(from, std::make_shared<const Material>(all, setup_.motion), what);
+        return with_more(from, more, what);
+    });
+}
+
+void Studio::show_bus(bool running, const BusView& view) {
+    const std::lock_guard lock(mutex_);
+    driving_ = running;
+    bus_view_ = view;
+    ++revision_;
+    wake_.notify_all();
+}
+
+// What was heard is kept, however the run ends.
+void Studio::drive_and_take(const Experiment& experiment, const Progress& progress) {
+    BusView last;
+    show_bus(true, last);
+    const BusRun run =
+        run_on_bus(setup_.bus, experiment, [&](const RunProgress& p, const BusView& view) {
+            last = view;
+            show_bus(true, view);
+            try {
+                progress(p.what, p.share);
+            } catch (...) { // stopped: first the drive, then the work
+                return false;
+            }
+            return true;
+        });
+    show_bus(false, last);
+    Recordings more;
+    for (const Capture& capture : run.captures) {
+        Recording r{capture, {}, true};
+        r.capture.path = fmt::format("{}-{}.csv", setup_.bus.interface, ++runs_);
+        r.source = source_of(r.capture.path, format_capture_csv(capture));
+        more.push_back(std::make_shared<const Recording>(std::move(r)));
+    }
+    if (!more.empty()) push(with_more(*now(), more, "with " + more.front()->capture.path));
+    if (!run.fault.empty()) throw can::BusError(run.fault);
+}
+
+void Studio::run_drive(const Json& action) {
+    if (setup_.bus.interface.empty())
+        throw UsageError("no drive: start the studio with --can INTERFACE");
+    const Experiment experiment = parse_experiment(text_of(action, "experiment"));
+    worker_->queue("run", [this, experiment](const Progress& progress) {
+        drive_and_take(experiment, progress);
     });
 }
 
@@ -304,6 +352,7 @@ long Studio::act(const Json& action) {
                                                       {"redo", &Studio::walk},
                                                       {"capture", &Studio::turn_capture},
                                                       {"experiment", &Studio::simulate_next},
+                                                      {"run", &Studio::run_drive},
                                                       {"stop", &Studio::stop}};
     const std::string name = text_of(action, "action");
     const auto found = actions.find(name);
@@ -319,6 +368,17 @@ Json Studio::history_json() const {
         out.push_back(
             {{"what", steps_[i]->what}, {"torque_error", number(steps_[i]->torque_error)}});
     return out;
+}
+
+Json Studio::bus_json() const {
+    if (setup_.bus.interface.empty()) return nullptr;
+    const can::LiveRows& live = bus_view_.live;
+    return {
+        {"interface", setup_.bus.interface},
+        {"running", driving_},
+        {"rows", bus_view_.rows},
+        {"seconds", bus_view_.seconds},
+        {"live", {{"time_s", live.time_s}, {"torque", live.torque}, {"position", live.position}}}};
 }
 
 Json Studio::experiment_json(const Step& step) const {
@@ -341,7 +401,7 @@ Json Studio::state(long after, std::chrono::milliseconds wait) {
                 {"redo", at_ + 1 < steps_.size() ? Json(steps_[at_ + 1]->what) : Json(nullptr)},
                 {"history", history_json()},
                 {"experiment", experiment_json(*step)},
-                {"can", nullptr}};
+                {"can", bus_json()}};
     lock.unlock();
     out["model"] = terms_json(*step);
     out["captures"] = recordings_json(step->material->recordings());

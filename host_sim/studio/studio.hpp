@@ -4,6 +4,7 @@
 // State      One consistent state at any time, numbered by a revision that grows with every change.
 #pragma once
 
+#include "studio/bus_run.hpp"
 #include "studio/step.hpp"
 #include "studio/worker.hpp"
 
@@ -24,6 +25,7 @@ struct Setup {
     MotionOptions motion;
     std::vector<std::string> commands; // that led here, for the provenance
     std::function<std::vector<Capture>(const std::string& path)> read; // of one that was sent
+    BusSetup bus;
     bool diagnose_at_once = true; // what is new, until something else is asked for
 };
 
@@ -62,6 +64,9 @@ class Studio {
     void diagnose_now(bool dispensable);
     void look_again();
     void take(Recordings more, const std::string& what);
+    StepPtr with_more(const Step& from, Recordings more, const std::string& what) const;
+    void drive_and_take(const Experiment& experiment, const Progress& progress);
+    void show_bus(bool running, const BusView& view);
     std::vector<Capture> read_sent(const std::string& name, const std::string& bytes) const;
 
     // The actions.
@@ -72,9 +77,11 @@ class Studio {
     void walk(const Json& action);
     void turn_capture(const Json& action);
     void simulate_next(const Json& action);
+    void run_drive(const Json& action);
     void stop(const Json& action);
 
     Json history_json() const;
+    Json bus_json() const;
     Json experiment_json(const Step& step) const;
 
     const Setup setup_;
@@ -85,6 +92,9 @@ class Studio {
     std::string error_;
     std::vector<StepPtr> steps_; // opened first
     size_t at_ = 0;
+    bool driving_ = false;
+    int runs_ = 0; // on the bus
+    BusView bus_view_;
     std::pair<StepPtr, std::string> preview_; // of the experiment that was simulated
     std::mutex telling_;
     Told told_;
