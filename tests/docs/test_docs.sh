@@ -17,8 +17,8 @@
 # (tests/docs/shows.awk); a line `...` or `…` stands for whatever was left out. `text elsewhere` shows
 # something else, or what differs from run to run, such as seconds.
 # A ```c block marked `compiles` goes through the compiler with every warning; ```c, ```cpp or ```text marked
-# `from FILE` must stand in that file, line by line. A block of neither kind is an error, and so are a link to a file that is
-# not there and a document without any.
+# `from FILE` must stand in that file, line by line. A block of neither kind is an error, and so are a link to a
+# file or a heading that is not there and a document without any.
 set -euo pipefail
 export LC_ALL=C
 source_dir=$(realpath "${SERVOID_SOURCE_DIR:-$(dirname "$0")/../..}")
@@ -112,10 +112,20 @@ block() { # WHERE INFO SCRIPT FOLDER
     esac
 }
 
-links() { # DOCUMENT: what [text](file) and ![text](file) point at, outside fenced blocks
-    local target
-    for target in $(awk '/^ *```/ { inside = !inside } !inside' "$1" | grep -oE '\]\([^)# ]+' | grep -v '(https*:' | sed 's/^](//' || true); do
-        [ -e "$(dirname "$1")/$target" ] || fail "$1" "the link to $target leads nowhere"
+prose() { awk '/^ *```/ { inside = !inside; next } !inside' "$1"; } # DOCUMENT: what is outside fenced blocks
+
+anchors() { # DOCUMENT: what its headings are called in a link
+    prose "$1" | sed -nE 's/^#+ +//p' | tr '[:upper:] ' '[:lower:]-' | tr -cd 'a-z0-9_\n-'
+}
+
+links() { # DOCUMENT: what [text](file#heading) and ![text](file) point at
+    local target file
+    for target in $(prose "$1" | grep -oE '\]\([^) ]+' | grep -v '(https*:' | sed 's/^](//' || true); do
+        file=$(dirname "$1")/${target%%#*}
+        [ -n "${target%%#*}" ] || file=$1
+        [ -e "$file" ] || { fail "$1" "the link to $target leads nowhere"; continue; }
+        [[ $target != *.md#* && $target != \#* ]] || anchors "$file" | grep -xF -- "${target#*#}" >/dev/null ||
+            fail "$1" "the link to $target: there is no such heading"
     done
 }
 
