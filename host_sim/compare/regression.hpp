@@ -30,6 +30,7 @@ struct FitResult {
     std::vector<Coefficient> coefficients; // the linear part, in the order of the columns
     Eigen::VectorXd values, std;           // of the coefficients
     Eigen::MatrixXd covariance;            // of the coefficients
+    Eigen::MatrixXd parameter_covariance;  // of `parameters`, to first order; empty: not asked for
     std::vector<std::string> at_bound;     // names of parameters on a bound
     double condition = 0;                  // of the scaled free columns
     double torque_error = 0;               // ‖T − T̂‖/‖T‖

@@ -35,17 +35,17 @@ double step_of(const Shape& shape, double value) {
 
 namespace {
 
-// The parameters of a term against the joint vector, by differences: amplitude and phase from two
-// coefficients, for instance.
-std::vector<double> term_variance(const FitResult& fitted, size_t term, const Joint& joint,
-                                  const Matrix& covariance) {
+// How the parameters of a term, in the order of its effect, move with the joint vector: amplitude
+// and phase with two coefficients, for instance. By differences.
+Matrix term_slopes(const FitResult& fitted, size_t term, const Joint& joint) {
     const EffectTerm& base = fitted.model.effects[term];
     const Effect& effect = *find_effect(base.name);
-    Matrix slopes = Matrix::Zero(Eigen::Index(base.parameters.size()), covariance.rows());
+    const std::vector<ParameterInfo> parameters = effect.parameters(base);
+    Matrix slopes = Matrix::Zero(Eigen::Index(parameters.size()), joint.slopes.cols());
     const auto put = [&](Eigen::Index at, const EffectTerm& moved, double step) {
         Eigen::Index row = 0;
-        for (const auto& [key, value] : base.parameters)
-            slopes(row++, at) = (moved.at(key) - value) / step;
+        for (const ParameterInfo& p : parameters)
+            slopes(row++, at) = (moved.at(p.key) - base.at(p.key)) / step;
     };
     const Vector linear = effect.linear(base);
     for (size_t i = 0; i < joint.free.size(); ++i) {
@@ -65,11 +65,20 @@ std::vector<double> term_variance(const FitResult& fitted, size_t term, const Jo
         other.parameters[joint.shapes[i].key] += step;
         put(Eigen::Index(joint.free.size() + i), other, step);
     }
-    const Matrix out = slopes * covariance * slopes.transpose();
-    std::vector<double> variance;
-    for (Eigen::Index i = 0; i < out.rows(); ++i)
-        variance.push_back(std::max(0.0, out(i, i)));
-    return variance;
+    return slopes;
+}
+
+// The same for all parameters: the inertia, then those of each term.
+Matrix parameter_slopes(const FitResult& fitted, const Joint& joint) {
+    Matrix out = Matrix::Zero(1, joint.slopes.cols());
+    for (size_t i = 0; i < joint.free.size(); ++i)
+        if (fitted.coefficients[size_t(joint.free[i])].term < 0) out(0, Eigen::Index(i)) = 1;
+    for (size_t t = 0; t < fitted.model.effects.size(); ++t) {
+        const Matrix term = term_slopes(fitted, t, joint);
+        out.conservativeResize(out.rows() + term.rows(), Eigen::NoChange);
+        out.bottomRows(term.rows()) = term;
+    }
+    return out;
 }
 
 bool on_bound(const FitResult& out, int term, int index) {
@@ -82,22 +91,26 @@ bool on_bound(const FitResult& out, int term, int index) {
     return false;
 }
 
-void list_parameters(FitResult& out, const Joint& joint, const Matrix& cov) {
+void list_parameters(FitResult& out) {
+    const Matrix& cov = out.parameter_covariance;
+    const auto std_of = [&](size_t place) {
+        const auto i = Eigen::Index(place);
+        return cov.size() ? std::sqrt(std::max(0.0, cov(i, i))) : 0.0;
+    };
     out.parameters.clear(), out.at_bound.clear();
-    FittedParameter inertia{
-        "inertia", Quantity::inertia, {out.values[0], out.std[0]}, out.model.inertia_fixed, false};
-    out.parameters.push_back(inertia);
+    out.parameters.push_back({"inertia",
+                              Quantity::inertia,
+                              {out.values[0], out.std[0]},
+                              out.model.inertia_fixed,
+                              false});
     for (size_t t = 0; t < out.model.effects.size(); ++t) {
         const EffectTerm& term = out.model.effects[t];
         const Effect& effect = *find_effect(term.name);
-        std::vector<double> variance(term.parameters.size(), 0.0);
-        if (cov.size()) variance = term_variance(out, t, joint, cov);
         int index = 0;
         for (const ParameterInfo& p : effect.parameters(term)) {
-            const auto place = std::distance(term.parameters.begin(), term.parameters.find(p.key));
             FittedParameter one{term_name(out.model, t) + "." + p.key,
                                 p.quantity,
-                                {term.at(p.key), std::sqrt(variance[size_t(place)])},
+                                {term.at(p.key), std_of(out.parameters.size())},
                                 term.is_fixed(p.key),
                                 index < effect.linear_count(term) && on_bound(out, int(t), index)};
             if (one.at_bound) out.at_bound.push_back(one.name);
@@ -112,26 +125,28 @@ void list_parameters(FitResult& out, const Joint& joint, const Matrix& cov) {
 void add_uncertainty(FitResult& out, const Joint& joint) {
     out.std = Vector::Zero(out.values.size());
     out.covariance = Matrix::Zero(out.values.size(), out.values.size());
-    Matrix cov;
+    out.parameter_covariance.resize(0, 0);
     if (joint.slopes.cols() > 0) {
         const auto columns = Eigen::Index(joint.free.size());
         for (size_t i = 0; i < joint.shapes.size(); ++i)
             refuse_if_undetermined({out.model, joint.shapes[i].term, joint.shapes[i].key},
                                    joint.slopes, columns + Eigen::Index(i));
-        cov = block_covariance(joint.slopes, out.residual, out.block);
+        const Matrix cov = block_covariance(joint.slopes, out.residual, out.block);
         for (size_t i = 0; i < joint.free.size(); ++i) {
             out.std[joint.free[i]] = std::sqrt(cov(Eigen::Index(i), Eigen::Index(i)));
             for (size_t j = 0; j < joint.free.size(); ++j)
                 out.covariance(joint.free[i], joint.free[j]) =
                     cov(Eigen::Index(i), Eigen::Index(j));
         }
+        const Matrix slopes = parameter_slopes(out, joint);
+        out.parameter_covariance = slopes * cov * slopes.transpose();
         const auto offsets = columns + Eigen::Index(joint.shapes.size());
         for (size_t i = 0; i < joint.moved.size(); ++i) {
             const Eigen::Index at = offsets + Eigen::Index(i);
             out.homing.offset[joint.moved[i]].std = std::sqrt(std::max(0.0, cov(at, at)));
         }
     }
-    list_parameters(out, joint, cov);
+    list_parameters(out);
 }
 
 } // namespace servoid

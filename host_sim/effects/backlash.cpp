@@ -50,6 +50,7 @@ class Backlash : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "backlash",
+            .title = "backlash",
             .law = "load free inside a gap; its share of the inertia acts at either face only",
             .signature =
                 "residual in bursts after each change of the torque's sign, where the load "

@@ -15,6 +15,7 @@ class Cogging : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "cogging",
+            .title = "cogging",
             .law = "A·sin(nθ + φ)",
             .signature = "residual a sine of position, whatever the speed",
             .reference = "Holtz, Springob, IEEE TIE 43, 1996",

@@ -13,6 +13,7 @@ class ConstantTorque : public Effect {
         constexpr double inf = std::numeric_limits<double>::infinity();
         static const EffectInfo info = {
             .name = "constant_torque",
+            .title = "a constant torque",
             .law = "w",
             .signature = "residual with a mean that no motion changes",
             .reference = "Andoh 2008, eq. (1)",

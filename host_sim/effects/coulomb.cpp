@@ -13,6 +13,7 @@ class Coulomb : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "coulomb",
+            .title = "Coulomb friction",
             .law = "Tc·sgn v, with sticking",
             .signature = "residual changes sign with velocity and is flat in |v|",
             .reference = "Andoh 2008, section III-A; Coulomb 1785; Armstrong-Hélouvry 1991",

@@ -15,6 +15,7 @@ class CoulombAsymmetric : public Effect {
         constexpr double inf = std::numeric_limits<double>::infinity();
         static const EffectInfo info = {
             .name = "coulomb_asymmetric",
+            .title = "Coulomb friction that depends on the direction",
             .law = "Tc₊ for v > 0, −Tc₋ for v < 0, with sticking",
             .signature = "residual changes sign with velocity, by a different step each way",
             .reference = "Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019",

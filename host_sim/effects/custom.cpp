@@ -63,6 +63,7 @@ class Custom : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "custom",
+            .title = "a law of your own",
             .law = "what you write, in t theta v a T and parameters of your own",
             .signature = "residual that no law of the catalogue explains",
             .reference = "docs/formats.md",

@@ -15,6 +15,7 @@ class DeadTime : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "dead_time",
+            .title = "dead time",
             .law = "delivered T after a delay",
             .signature =
                 "residual in proportion to the change of torque; phase that grows with frequency",

@@ -73,6 +73,7 @@ struct Picture {
 
 struct EffectInfo {
     std::string name;
+    std::string title;     // in a sentence: "Coulomb friction"
     std::string law;       // as text, in T, θ, v, a, t
     std::string signature; // what the residual looks like where this effect is missing
     std::string reference; // literature

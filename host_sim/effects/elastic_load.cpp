@@ -68,6 +68,7 @@ class ElasticLoadEffect : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "elastic_load",
+            .title = "an elastic load",
             .law = "(1/(J s²))·(ωr²/ωa²)·(s²+2ζaωa s+ωa²)/(s²+2ζrωr s+ωr²)",
             .signature = "inertia that seems to grow with frequency, then a resonance",
             .reference = "Andoh 2008, eq. (7)",

@@ -15,6 +15,7 @@ class EncoderEccentricity : public WaveEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "encoder_eccentricity",
+            .title = "eccentricity of the encoder",
             .law = "measured θ + e·sin(θ + φ)",
             .signature = "residual once per revolution whose size follows acceleration and squared "
                          "speed, as for a variable inertia but with twice the share of v²",

@@ -15,6 +15,7 @@ class FrictionDrift : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "friction_drift",
+            .title = "a drift of the friction",
             .law = "all friction × (1 + d·(1 − exp(−t/τ)))",
             .signature = "residual in proportion to friction that fades in or out over the record",
             .reference = "Bittencourt, Gunnarsson, IEEE TIE 59, 2012",

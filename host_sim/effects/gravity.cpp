@@ -15,6 +15,7 @@ class Gravity : public WaveEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "gravity",
+            .title = "gravity",
             .law = "G·sin(θ+φ)",
             .signature = "residual a sine of the angle, once per revolution",
             .reference = "Swevers, Verdonck, De Schutter, IEEE Control Systems 27, 2007",

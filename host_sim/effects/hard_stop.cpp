@@ -19,6 +19,7 @@ class HardStop : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "hard_stop",
+            .title = "a hard stop",
             .law = "k·(θ ∓ θs) beyond ±θs",
             .signature = "residual only at the ends of the travel, growing with the way beyond",
             .reference = "Brogliato, Nonsmooth Mechanics, 1999",

@@ -16,6 +16,7 @@ class LoadFriction : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "load_friction",
+            .title = "friction that grows with the load",
             .law = "μ·|T|·sgn v, T the delivered torque",
             .signature = "residual changes sign with velocity and grows with the torque",
             .reference = "Dohring, Lee, Newman, ACC 1993; Hamon, Gautier, Garrec, IROS 2010",

@@ -18,6 +18,7 @@ class PeriodicDisturbance : public WaveEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "periodic_disturbance",
+            .title = "a periodic disturbance",
             .law = "A·sin(2πft + φ)",
             .signature = "residual a sine of time, the same whatever the axis does",
             .reference = "Bodson, Sacks, Khosla, IEEE TAC 39, 1994",

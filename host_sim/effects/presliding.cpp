@@ -15,6 +15,7 @@ class Presliding : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "presliding",
+            .title = "pre-sliding friction",
             .law = "F with F' = σ·v·(1 − F·sgn v/Tb)",
             .signature = "residual of a hysteresis: after each reversal it grows with the way "
                          "travelled, then is flat",

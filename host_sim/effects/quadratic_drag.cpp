@@ -15,6 +15,7 @@ class QuadraticDrag : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "quadratic_drag",
+            .title = "quadratic drag",
             .law = "c·v·|v|",
             .signature = "residual odd in velocity that grows faster than in proportion",
             .reference = "Swevers, Verdonck, De Schutter, IEEE Control Systems 27, 2007",

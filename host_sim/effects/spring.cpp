@@ -15,6 +15,7 @@ class Spring : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "spring",
+            .title = "a spring",
             .law = "k·(θ − θ₀)",
             .signature = "residual proportional to position",
             .reference = "Hooke 1678",

@@ -18,6 +18,7 @@ class Stribeck : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "stribeck",
+            .title = "Stribeck friction",
             .law = "ΔT·exp(−(v/vs)²)·sgn v, on top of Coulomb friction",
             .signature = "residual changes sign with velocity and dies out as |v| grows",
             .reference =

@@ -15,6 +15,7 @@ class TorqueGain : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "torque_gain",
+            .title = "a gain of the torque",
             .law = "delivered T·g",
             .signature = "none: inertia and friction take it up, unless one of them is fixed",
             .reference = "Andoh 2008, section III-F",

@@ -16,6 +16,7 @@ class TorqueLag : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "torque_lag",
+            .title = "a lag of the torque",
             .law = "delivered T through 1/(τs + 1)",
             .signature =
                 "residual in proportion to the change of torque, largest where the torque jumps",

@@ -15,6 +15,7 @@ class TorqueRipple : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "torque_ripple",
+            .title = "torque ripple",
             .law = "delivered T·(1 + a·sin(nθ + φ))",
             .signature = "residual a sine of position whose size follows the torque",
             .reference = "Holtz, Springob, IEEE TIE 43, 1996; Mattavelli et al., IEEE TIA 41, 2005",

@@ -27,6 +27,7 @@ class TorqueSaturation : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "torque_saturation",
+            .title = "a limit of the torque",
             .law = "delivered T clipped at ±limit",
             .signature = "residual only where the asked torque is largest",
             .reference = "Leonhard, Control of Electrical Drives, 2001",

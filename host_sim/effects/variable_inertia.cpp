@@ -15,6 +15,7 @@ class VariableInertia : public OrderEffect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "variable_inertia",
+            .title = "an inertia that varies with the position",
             .law = "J·(1 + a·cos(nθ + φ))·v' + ½·J'·v²",
             .signature =
                 "residual a sine of position whose size follows acceleration and squared speed",

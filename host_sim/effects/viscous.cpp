@@ -12,6 +12,7 @@ class Viscous : public Effect {
     const EffectInfo& info() const override {
         static const EffectInfo info = {
             .name = "viscous",
+            .title = "viscous friction",
             .law = "D·v",
             .signature = "residual proportional to velocity, the same slope in both directions",
             .reference = "Andoh 2008, eq. (1); Armstrong-Hélouvry, Control of Machines with "

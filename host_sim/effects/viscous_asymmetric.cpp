@@ -13,6 +13,7 @@ class ViscousAsymmetric : public Effect {
         constexpr double inf = std::numeric_limits<double>::infinity();
         static const EffectInfo info = {
             .name = "viscous_asymmetric",
+            .title = "viscous friction that depends on the direction",
             .law = "D₊·v for v > 0, D₋·v for v < 0",
             .signature = "residual proportional to |v|: a slope that differs between directions",
             .reference = "Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019",

@@ -26,33 +26,14 @@ std::map<std::string, Place> places_of(const Model& model) {
     return out;
 }
 
-// The coefficient that is this parameter and nothing else; −1 for shapes and for the amplitude and
-// phase of a wave, which are made of two.
-std::map<std::string, Eigen::Index> coefficients_by_name(const FitResult& fit,
-                                                         const std::map<std::string, Place>& is) {
-    std::map<std::string, Eigen::Index> out;
-    for (size_t i = 0; i < fit.coefficients.size(); ++i) {
-        const std::string name = coefficient_name(fit.model, fit.coefficients[i]);
-        const auto place = is.find(name);
-        if (place != is.end() && fit.values[Eigen::Index(i)] == place->second.value)
-            out[name] = Eigen::Index(i);
-    }
-    return out;
-}
-
-Json correlations(const FitResult& fit, const std::map<std::string, Place>& is) {
-    const auto at = coefficients_by_name(fit, is);
+// null beside what was not fitted.
+Json correlations(const FitResult& fit) {
+    const Eigen::MatrixXd& cov = fit.parameter_covariance;
     Json out = Json::array();
-    for (const FittedParameter& a : fit.parameters) {
+    for (Eigen::Index i = 0; i < cov.rows(); ++i) {
         Json row = Json::array();
-        for (const FittedParameter& b : fit.parameters) {
-            const auto i = at.find(a.name), j = at.find(b.name);
-            const bool known = i != at.end() && j != at.end();
-            row.push_back(known ? number(fit.covariance(i->second, j->second) /
-                                         std::sqrt(fit.covariance(i->second, i->second) *
-                                                   fit.covariance(j->second, j->second)))
-                                : Json(nullptr));
-        }
+        for (Eigen::Index j = 0; j < cov.cols(); ++j)
+            row.push_back(number(cov(i, j) / std::sqrt(cov(i, i) * cov(j, j))));
         out.push_back(row);
     }
     return out;
@@ -79,7 +60,7 @@ Json parameter_table(const FitResult& fit, const Model& given, bool ampere) {
         out["lower"].push_back(place == is.end() ? Json(nullptr) : number(place->second.lower));
         out["upper"].push_back(place == is.end() ? Json(nullptr) : number(place->second.upper));
     }
-    out["correlation"] = correlations(fit, is);
+    out["correlation"] = correlations(fit);
     return out;
 }
 

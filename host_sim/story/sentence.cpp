@@ -1,6 +1,8 @@
 #include "story/sentence.hpp"
 
 #include "answers/json.hpp"
+#include "effects/catalogue.hpp"
+#include "effects/custom_argument.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +12,8 @@ namespace servoid {
 
 namespace {
 
-// "load_friction" as people write it.
-std::string in_words(std::string effect) {
-    std::replace(effect.begin(), effect.end(), '_', ' ');
-    return effect;
+std::string in_words(const std::string& effect) {
+    return is_custom(effect) ? effect : find_effect(effect)->info().title;
 }
 
 std::string floor_of(double floor) { return "the noise floor is " + percent(floor); }
@@ -25,6 +25,7 @@ std::string rivals(const Diagnosis& d) {
         if (named == 3 || c.probability < 0.05) break;
         out += (named++ ? " or " : "") + in_words(c.effect);
     }
+    if (!d.outside.empty()) out += " or a law of no catalogue, " + d.outside;
     return out;
 }
 
@@ -38,9 +39,10 @@ std::string of_diagnosis(const Diagnosis& d) {
                            floor_of(d.noise_floor));
     }
     case Verdict::ambiguous:
-        return fmt::format("The model leaves {} of the torque. {} would explain it equally well: "
-                           "another move tells them apart.",
-                           error, rivals(d));
+        return fmt::format(
+            "The model leaves {} of the torque. This is explained equally well by {}: "
+            "another move tells them apart.",
+            error, rivals(d));
     case Verdict::unknown:
         return fmt::format("The model leaves {} of the torque, more than noise ({}), and no effect "
                            "of the catalogue explains it.",

@@ -110,6 +110,14 @@ Json parameters_of(const StoryInput& in) {
     return out;
 }
 
+// Of the model as it came, then of the refined one.
+std::string advice(const StoryInput& in) {
+    std::string out = in.diagnosis ? in.diagnosis->advice : "";
+    if (in.refinement && in.refinement->ladder.size() > 1 && in.refinement->last.advice != out)
+        out += ". Of the refined model: " + in.refinement->last.advice;
+    return out;
+}
+
 void add_answers(Json& out, const StoryInput& in, const Comparison& comparison) {
     std::vector<Capture> captures;
     for (const PreparedMotion& m : in.motions) {
@@ -147,7 +155,7 @@ Json make_story(const StoryInput& in) {
           {"acceleration", scene.unit(Quantity::acceleration)}}},
         {"verdict", in.diagnosis ? Json(verdict_name(in.diagnosis->verdict)) : Json(nullptr)},
         {"sentence", sentence(comparison, in.diagnosis, in.refinement)},
-        {"advice", in.diagnosis ? in.diagnosis->advice : ""},
+        {"advice", advice(in)},
         {"basis", in.fit ? "fitted" : "as given"},
         {"given_error", number(compare(in.given, in.motions).torque_error)}};
     add_answers(out, in, comparison);
