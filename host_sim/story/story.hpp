@@ -7,9 +7,9 @@
 //   title       the model's name
 //   unit        {"torque", "position", "velocity", "acceleration"}: "N·m", "rad", ...
 //   verdict     of the diagnosis, or of the refinement of a model that lacks something
-//   (verdict_name) sentence    the verdict for people, one sentence advice      what to do next, a
-//   few sentences basis       "fitted": every number of the model was fitted again before anything
-//   is shown; or
+//   sentence    the verdict for people
+//   advice      what to do next, a few sentences
+//   basis       "fitted": every number of the model was fitted again before anything is shown; or
 //               "as given"
 //   given_error torque error of the model as given
 //   compare     servoid.compare/1 of the model on that basis

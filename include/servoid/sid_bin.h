@@ -109,6 +109,7 @@ typedef struct {
     int32_t value[SID_BIN_REGRESSORS];
 } sid_bin_row_t;
 
+/// The regressors at a phase and a window time.
 static inline sid_bin_row_t sid_bin_row(sid_osc_t osc, int32_t tau_q29) {
     const int32_t square_q26 = sid_mulhi(tau_q29, tau_q29);
     sid_bin_row_t row;
@@ -121,6 +122,7 @@ static inline sid_bin_row_t sid_bin_row(sid_osc_t osc, int32_t tau_q29) {
     return row;
 }
 
+/// Window time of sample `index`, Q29.
 static inline int32_t sid_bin_tau(const sid_bin_t* bin, uint32_t index) {
     return (int32_t)((uint32_t)bin->tau_first_q29 + (uint32_t)bin->tau_step_q29 * index);
 }
@@ -170,6 +172,7 @@ static inline void sid_bin_add_squares(int64_t* sum, int32_t torque, int32_t pos
 }
 #endif
 
+/// All sums of one sample.
 static inline void sid_bin_accumulate(sid_bin_t* bin, sid_bin_row_t row, int32_t torque,
                                       int32_t position) {
     int64_t* sum = sid_bin_add(bin->sums, torque, position, row.value[0], row.value[1]);

@@ -26,6 +26,7 @@ typedef struct {
 
 SID_STATIC_ASSERT(sizeof(sid_can_frame_t) == 72, frame_has_its_stated_size);
 
+/// Little-endian, at any address.
 static inline void sid_put_u16(uint8_t* at, uint16_t value) {
     at[0] = (uint8_t)(value & 0xFFU);
     at[1] = (uint8_t)(value >> 8);

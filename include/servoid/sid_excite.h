@@ -110,6 +110,7 @@ void sid_excite_park(sid_excite_t* excite);
 void sid_excite_abort(sid_excite_t* excite);
 /// The ramp down is over, or a guard tripped, or no leg has begun.
 bool sid_excite_is_still(const sid_excite_t* excite);
+/// Which guard tripped; of several in one sample the first of torque, stuck, stroke, jump.
 sid_trip_t sid_excite_trip(const sid_excite_t* excite);
 /// One sample, for use without a session.
 void sid_excite_step(sid_excite_t* excite, const sid_sample_t* in, sid_command_t* out);
@@ -123,6 +124,7 @@ typedef struct {
     int32_t trip;
 } sid_tick_t;
 
+/// tick + 1, stopping at 2^31 - 1.
 static inline uint32_t sid_tick_next(uint32_t tick) { return (tick + 1U) - ((tick + 1U) >> 31); }
 
 /// Guards, position and tick. What must not be believed (movement in a jump, anything after a trip)

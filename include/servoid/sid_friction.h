@@ -62,8 +62,11 @@ typedef struct {
     sid_friction_status_t status;
 } sid_friction_result_t;
 
+/// Clears the sums.
 void sid_friction_init(sid_friction_t* friction);
+/// One sample; the sign of the speed says which direction it belongs to.
 void sid_friction_step(sid_friction_t* friction, int32_t speed, int32_t torque_pu_q20);
+/// Solves from the sums; they stay.
 sid_friction_status_t sid_friction_solve(const sid_friction_t* friction,
                                          sid_friction_result_t* out);
 

@@ -53,6 +53,7 @@ typedef struct {
     uint8_t speed_average;
 } sid_loop_t;
 
+/// Takes over the gains and stands at position 0. False if one is out of range.
 bool sid_loop_init(sid_loop_t* loop, const sid_loop_config_t* config);
 /// Forgets the sum and takes position as where the axis has been standing.
 void sid_loop_reset(sid_loop_t* loop, int32_t position_count);

@@ -101,6 +101,8 @@ typedef struct {
 
 SID_STATIC_ASSERT(sizeof(sid_node_t) <= 1024, node_fits_1024_bytes);
 
+/// False if the configuration is out of range. It must outlive the node, as must rings, plan and
+/// results.
 bool sid_node_init(sid_node_t* node, const sid_node_config_t* config);
 
 /// Once a sample, from the interrupt. The reference is relative to node->run.start_raw, which

@@ -31,6 +31,7 @@ typedef struct {
     int32_t cosine_q31;
 } sid_osc_t;
 
+/// Sine and cosine of a phase.
 static inline sid_osc_t sid_osc(uint64_t phase_q64) {
     const uint64_t shifted = phase_q64 + ((uint64_t)1 << 56);
     const int32_t* const entry = &sid_osc_table[(uint32_t)(shifted >> 57)];

@@ -25,7 +25,9 @@ typedef struct {
 
 /// mantissa * 2^exponent, normalised and rounded.
 sid_scaled_t sid_scaled_make(int64_t mantissa, int32_t exponent);
+/// a * b.
 sid_scaled_t sid_scaled_mul(sid_scaled_t a, sid_scaled_t b);
+/// a / b; 0 where b is 0.
 sid_scaled_t sid_scaled_div(sid_scaled_t a, sid_scaled_t b);
 /// round(value * 2^fraction_bits), saturated to int32_t.
 int32_t sid_scaled_to_fixed(sid_scaled_t a, int32_t fraction_bits);

@@ -38,6 +38,7 @@ typedef struct {
     uint32_t value; ///< unused upper bytes 0
 } sid_sdo_t;
 
+/// Reads a request; false if it asks nothing.
 bool sid_sdo_parse(const sid_can_frame_t* request, sid_sdo_t* sdo);
 /// Fills data, length and fd; the identifier is the caller's.
 void sid_sdo_answer(const sid_sdo_t* sdo, uint32_t abort_code, sid_can_frame_t* answer);

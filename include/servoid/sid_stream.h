@@ -45,6 +45,7 @@ typedef struct {
 
 SID_STATIC_ASSERT(sizeof(sid_stream_t) <= 128, stream_fits_its_stated_size);
 
+/// A ring of count references, and the guards of every move.
 bool sid_stream_init(sid_stream_t* stream, int32_t* references, uint32_t count,
                      const sid_excite_config_t* guards);
 /// Forgets the last move and waits for `total` references. Only while none runs.
@@ -56,11 +57,13 @@ bool sid_stream_is_ready(const sid_stream_t* stream);
 /// Plays from the next sample on; position_raw is where the encoder stands now. stuck_limit: as in
 /// sid_leg_t, counted only while the reference moves.
 bool sid_stream_start(sid_stream_t* stream, uint32_t position_raw, uint32_t stuck_limit);
+/// One sample, from the interrupt.
 void sid_stream_step(sid_stream_t* stream, const sid_sample_t* in, sid_command_t* out);
 /// Holds the axis from the next sample on (reported as a trip of the torque guard).
 void sid_stream_abort(sid_stream_t* stream);
 /// All references were played, or the axis is held.
 bool sid_stream_is_over(const sid_stream_t* stream);
+/// Ends a move that is over, so that the next can be prepared.
 void sid_stream_stop(sid_stream_t* stream);
 
 #ifdef __cplusplus

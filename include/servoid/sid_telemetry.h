@@ -69,6 +69,7 @@ typedef struct {
     uint8_t torque_timing; ///< sid_torque_timing_t
 } sid_run_t;
 
+/// A ring of count rows, tick 0.
 bool sid_telemetry_init(sid_telemetry_t* telemetry, sid_row_t* rows, uint32_t count);
 
 /// Once a sample, from the interrupt.

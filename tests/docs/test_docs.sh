@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The documentation, run: every fenced block of README.md, DESIGN.md, SPEC.md, docs/*.md and
-# boards/*/README.md that a reader would paste into a shell.
+# The documentation, run: every fenced block of README.md, DESIGN.md, SPEC.md, docs/*.md,
+# boards/README.md and boards/*/README.md that a reader would paste into a shell.
 #
 #   SERVOID_PROGRAM=... tests/docs/test_docs.sh [--measured | --live]
 #
@@ -16,8 +16,9 @@
 # found there, in order, blanks aside, numbers within 2 % or one of their last digit, bars of any length
 # (tests/docs/shows.awk); a line `...` or `…` stands for whatever was left out. `text elsewhere` shows
 # something else, or what differs from run to run, such as seconds.
-# A ```c block marked `compiles` goes through the compiler with every warning. A block of neither kind
-# is an error, and so are a link to a file that is not there and a document without any.
+# A ```c block marked `compiles` goes through the compiler with every warning; ```c, ```cpp or ```text marked
+# `from FILE` must stand in that file, line by line. A block of neither kind is an error, and so are a link to a
+# file or a heading that is not there and a document without any.
 set -euo pipefail
 export LC_ALL=C
 source_dir=$(realpath "${SERVOID_SOURCE_DIR:-$(dirname "$0")/../..}")
@@ -36,7 +37,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$program" "$work/bin/servoid"
 PATH=$work/bin:$PATH
-failed=0 ran=0 shown=0
+failed=0 ran=0 shown=0 excerpts=0
 
 fail() { # WHERE WHAT [LOG]
     echo "$1: $2"
@@ -70,6 +71,13 @@ compile_block() { # WHERE SCRIPT
         >"$log" 2>&1 || fail "$1" "does not compile" "$log"
 }
 
+excerpt_block() { # WHERE FILE SCRIPT: whole lines that stand in the file as they stand here
+    excerpts=$((excerpts + 1))
+    [ -f "$source_dir/$2" ] || { fail "$1" "there is no $2"; return; }
+    [ -s "$3" ] && [[ $'\n'$(<"$source_dir/$2")$'\n' == *$'\n'"$(<"$3")"$'\n'* ]] ||
+        fail "$1" "does not stand in $2 as it stands here"
+}
+
 shown_block() { # WHERE TEXT
     case $last_sh in
     "sh $kind "*) ;;
@@ -93,25 +101,36 @@ block() { # WHERE INFO SCRIPT FOLDER
     [[ ! $2 =~ ^sh ]] || last_sh="$2 "
     case "$2 " in
     "text elsewhere "*) ;;
+    "c from "* | "cpp from "* | "text from "*) [ $kind != runnable ] || excerpt_block "$1" "${2#* from }" "$3" ;;
     "text "*) shown_block "$1" "$3" ;;
     "sh runnable "*) [ $kind != runnable ] || run_block "$@" ;;
     "sh measured "*) [ $kind != measured ] || run_block "$@" ;;
     "sh live "*) [ $kind != live ] || run_block "$@" ;;
     "sh elsewhere "*) commands_exist "$1" "$3" ;;
     "c compiles "*) [ $kind != runnable ] || compile_block "$1" "$3" ;;
-    "sh "* | "bash "* | "c ") fail "$1" "\`\`\`$2: not marked (see tests/docs/test_docs.sh)" ;;
+    "sh "* | "bash "* | "c "* | "cpp "*) fail "$1" "\`\`\`$2: not marked (see tests/docs/test_docs.sh)" ;;
     esac
 }
 
-links() { # DOCUMENT: what [text](file) and ![text](file) point at
-    local target
-    for target in $(grep -oE '\]\([^)# ]+' "$1" | grep -v '(https*:' | sed 's/^](//' || true); do
-        [ -e "$(dirname "$1")/$target" ] || fail "$1" "the link to $target leads nowhere"
+prose() { awk '/^ *```/ { inside = !inside; next } !inside' "$1"; } # DOCUMENT: what is outside fenced blocks
+
+anchors() { # DOCUMENT: what its headings are called in a link
+    prose "$1" | sed -nE 's/^#+ +//p' | tr '[:upper:] ' '[:lower:]-' | tr -cd 'a-z0-9_\n-'
+}
+
+links() { # DOCUMENT: what [text](file#heading) and ![text](file) point at
+    local target file
+    for target in $(prose "$1" | grep -oE '\]\([^) ]+' | grep -v '(https*:' | sed 's/^](//' || true); do
+        file=$(dirname "$1")/${target%%#*}
+        [ -n "${target%%#*}" ] || file=$1
+        [ -e "$file" ] || { fail "$1" "the link to $target leads nowhere"; continue; }
+        [[ $target != *.md#* && $target != \#* ]] || anchors "$file" | grep -xF -- "${target#*#}" >/dev/null ||
+            fail "$1" "the link to $target: there is no such heading"
     done
 }
 
 cd "$source_dir" # the folders' documents are looked for from here
-for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/*/README.md; do
+for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/README.md boards/*/README.md; do
     cd "$source_dir"
     [ -f "$document" ] || continue
     blocks=$work/blocks/$document folder=$work/folder/$document
@@ -126,5 +145,5 @@ for document in README.md DESIGN.md SPEC.md CHANGELOG.md docs/*.md boards/*/READ
     done
 done
 
-echo "$ran blocks run, $shown of their outputs compared, $failed failed"
+echo "$ran blocks run, $shown of their outputs compared, $excerpts excerpts held against their files, $failed failed"
 ((failed == 0 && ran > 0))
