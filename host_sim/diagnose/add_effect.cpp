@@ -162,6 +162,9 @@ Addition add_effect(const Model& model, const std::string& name,
     Addition out;
     out.before = fit_homed(model, assembler);
     out.after = fit_with(out.before, *effect, assembler);
+    if (const std::string why = out_of_bounds(out.after.model); !why.empty())
+        throw Refusal(why + ": something else explains this capture",
+                      "several turns in both directions, several speeds");
     return out;
 }
 

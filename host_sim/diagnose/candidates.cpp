@@ -87,6 +87,7 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
     for (const MotionView& view : assembler.views())
         if (why = effect.implausible(c.fit.model.effects.back(), view); why.empty()) break;
     if (!why.empty()) out = why;
+    if (why = out_of_bounds(c.fit.model); !why.empty()) out = why;
     if (far_less_torque(c, before)) out = "far less torque than moved the axis";
     if (c.fit.model.inertia < kHardlyAny * before.model.inertia) out = "it leaves no inertia";
     if (is_harmonic(c, assembler.motions()))

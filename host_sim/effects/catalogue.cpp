@@ -1,5 +1,7 @@
 #include "effects/catalogue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace servoid {
@@ -63,6 +65,15 @@ std::string cannot_add(const Effect& effect, const Model& model) {
     for (const std::string& needed : info.needs)
         if (!model.find(needed) && !model.find(needed + "_asymmetric"))
             return "it needs " + needed + " in the model";
+    return "";
+}
+
+std::string out_of_bounds(const Model& model) {
+    for (const EffectTerm& term : model.effects)
+        for (const ParameterInfo& p : find_effect(term.name)->parameters(term))
+            if (const double value = term.at(p.key); !(value >= p.lower && value <= p.upper))
+                return fmt::format("{}.{} comes out as {:.3g}, possible is {:.3g} to {:.3g}",
+                                   term.name, p.key, value, p.lower, p.upper);
     return "";
 }
 

@@ -14,4 +14,8 @@ const Effect* find_effect(const std::string& name);
 // only"), or an empty string.
 std::string cannot_add(const Effect& effect, const Model& model);
 
+// The first parameter of a model's terms that lies outside its bounds, in words, or "": a
+// coefficient that is solved for knows no upper bound.
+std::string out_of_bounds(const Model& model);
+
 } // namespace servoid

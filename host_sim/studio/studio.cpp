@@ -98,6 +98,11 @@ StepPtr Studio::now() const {
     return steps_[at_];
 }
 
+long Studio::revision() const {
+    const std::lock_guard lock(mutex_);
+    return revision_;
+}
+
 void Studio::changed() {
     const std::lock_guard lock(mutex_);
     ++revision_;
@@ -254,9 +259,9 @@ long Studio::add_capture(const std::string& name, std::string bytes) {
         r.capture.path = name;
         more.push_back(std::make_shared<const Recording>(std::move(r)));
     }
+    const long before = revision();
     take(std::move(more), "with " + name);
-    const std::lock_guard lock(mutex_);
-    return revision_;
+    return before;
 }
 
 void Studio::turn_capture(const Json& action) {
@@ -357,9 +362,9 @@ long Studio::act(const Json& action) {
     const std::string name = text_of(action, "action");
     const auto found = actions.find(name);
     if (found == actions.end()) throw UsageError("there is no action " + name);
+    const long before = revision();
     (this->*found->second)(action);
-    const std::lock_guard lock(mutex_);
-    return revision_;
+    return before;
 }
 
 Json Studio::history_json() const {

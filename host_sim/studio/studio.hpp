@@ -40,7 +40,8 @@ class Studio {
     std::shared_ptr<const Json> story();
     std::string model_toml() const;
 
-    // {"action": ...}; returns the revision. What takes time goes on afterwards. Throws UsageError.
+    // {"action": ...}; returns the revision before it: what it changes has a higher one. What takes
+    // time goes on afterwards. Throws UsageError.
     long act(const Json& action);
     // A capture that was sent; the name is for people only.
     long add_capture(const std::string& name, std::string bytes);
@@ -55,6 +56,7 @@ class Studio {
     using Change = std::function<StepPtr(const Step&, const Progress&)>;
 
     StepPtr now() const;
+    long revision() const;
     void change(const std::string& what, Change change);                     // a step more
     void improve(const std::string& what, Change improve, bool dispensable); // of the same step
     void push(StepPtr step);

@@ -47,6 +47,7 @@ void Worker::stop() {
 
 std::optional<Busy> Worker::busy() const {
     const std::lock_guard lock(mutex_);
+    if (!busy_ && !waiting_.empty()) return Busy{waiting_.front().what, "", 0, 0, std::nullopt};
     if (!busy_) return std::nullopt;
     Busy out = *busy_;
     const Clock::time_point now = Clock::now();
