@@ -99,7 +99,9 @@ std::string fault_of(const Candidate& c, const Effect& effect, const FitResult& 
 // Fills in what a fit says of its last effect.
 void describe(Candidate& c, const Effect& effect, const FitResult& before, Assembler& assembler) {
     c.error_after = c.fit.torque_error;
-    c.blocks_after = held_out_blocks(c.fit, assembler);
+    HeldOut unseen = held_out(c.fit, assembler);
+    c.blocks_after = std::move(unseen.blocks);
+    c.foreseen_error_after = std::max(unseen.foreseen, c.error_after);
     // A descent that stopped at a bend may predict better than it fits, by its tangents: no merit.
     const double predicted = error_of(c.blocks_after);
     if (predicted < c.error_after)

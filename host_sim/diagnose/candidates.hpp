@@ -15,6 +15,7 @@ struct Candidate {
     double probability = 0;
     double error_after = NAN;                // on the data it was fitted to
     double validation_error_after = NAN;     // on blocks it was not fitted to
+    double foreseen_error_after = NAN;       // the same, against what could be foreseen of each
     std::vector<FittedParameter> parameters; // of the effect itself
     std::string signature;
     std::string note; // why it was not fitted, a parameter on its bound, an alias

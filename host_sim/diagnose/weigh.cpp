@@ -20,6 +20,7 @@ constexpr double kAsked = 0.02;            // probability from which a gain is c
 constexpr double kMuchTheSame = 1.1;       // in error
 constexpr double kSameAsRich = 1.3;        // of the same but for instants near rest
 constexpr double kPerBound = 4;            // price, as a logarithm
+constexpr double kHardlyForeseen = 1.25;   // held out over fitted: a block tells what no other does
 constexpr double kBeyondDoubt = 0.35;      // error after over before: no noise does that
 
 // −BIC/2 with the number of independent residuals instead of samples, and a price for the search.
@@ -158,6 +159,14 @@ double known_beforehand(const Candidate& c, const std::vector<MotionView>& views
     return agree ? first : 0; // one capture alone may tell what another cannot
 }
 
+// What a candidate leaves of data it was not fitted to. Where even the best one predicts some block
+// badly, that block alone tells a parameter (a single start the inertia), and which rival it suits
+// by chance is no evidence: then its error is held against what could be foreseen of it.
+double unseen_error(const Candidate& c, const Candidate& best) {
+    const bool foreseen = best.validation_error_after < kHardlyForeseen * best.error_after;
+    return foreseen ? c.validation_error_after : c.foreseen_error_after;
+}
+
 void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
     const Candidate* best = nullptr;
     for (const Candidate& c : d.candidates)
@@ -175,7 +184,7 @@ void set_probabilities(Diagnosis& d, const std::vector<MotionView>& views) {
     for (const Candidate& c : d.candidates) {
         double v = -INFINITY;
         if (c.sound)
-            v = log_evidence(c.fit, std::max(floor, c.validation_error_after), count, least) -
+            v = log_evidence(c.fit, std::max(floor, unseen_error(c, *best)), count, least) -
                 find_effect(c.effect)->search_price() - kPerBound * newly_bound(d.before, c.fit) -
                 (c.noise_gain > 0 ? count * c.noise_gain : 0) + known_beforehand(c, views);
         value.push_back(v);
