@@ -22,7 +22,7 @@ const Server = (() => {
         const state = await get(`api/state?after=${after}`);
         if (away) back();
         [away, pause] = [false, firstPause];
-        if (state.revision !== after) await changed(state);
+        if (state.revision !== after) changed(state);
         after = state.revision;
       } catch (fault) {
         if (!away) lost(fault);
