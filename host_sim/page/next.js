@@ -20,6 +20,10 @@ const Next = (() => {
     ];
   }
 
+  function advice(id, text) {
+    return text && Dom.make("p", {id, class: "advice"}, text);
+  }
+
   // Of the refined model where there is one: its gaps are those that are left.
   function section(story) {
     const last = [story.refine, story.diagnose].filter(Boolean);
@@ -27,7 +31,8 @@ const Next = (() => {
     const next = last.map(x => x.next_experiment).find(Boolean);
     const gaps = last.length ? last[0].cannot_show || [] : [];
     return Dom.section(
-        "next", "Record next", null, Dom.make("p", {id: "advice", class: "advice"}, story.advice),
+        "next", "Record next", null, advice("advice", story.advice),
+        story.refine && advice("refined-advice", "with all of the ladder: " + story.refine.advice),
         experiment(next), cannotShow(gaps));
   }
 

@@ -26,7 +26,7 @@ constexpr auto kCrowded = std::chrono::seconds(1);   // of those beyond kMostWai
 constexpr size_t kLargest = size_t(1) << 30U;        // capture
 constexpr size_t kThreads = 64;                      // a tab holds one while it waits
 constexpr const char* kNoAction = "that is no JSON object of an action";
-constexpr int kMostWaiting = 48;                     // the others act meanwhile
+constexpr int kMostWaiting = 48; // the others act meanwhile
 
 // One of those who wait, for as long as it lives.
 struct Waiting {

@@ -34,7 +34,8 @@ return bad;"""
 
 AXES = """
 const all = what => [...document.querySelectorAll(what)];
-const bad = t => !t.dataset.unit || !t.textContent.endsWith(', ' + t.dataset.unit);
+const bad = t => !t.dataset.unit ||
+  (t.dataset.unit !== '1' && !t.textContent.endsWith(', ' + t.dataset.unit));
 const bare = all('svg.plot, .strip').filter(p => !p.querySelector('.axis-title'));
 return all('.axis-title').filter(bad).concat(bare).map(e => e.outerHTML.slice(0, 200));"""
 
