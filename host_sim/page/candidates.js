@@ -71,7 +71,8 @@ const Candidates = (() => {
 
   function notFitted(all) {
     if (!all.length) return null;
-    const row = c => Table.row({"data-effect": c.effect}, Table.head(c.effect), Table.text(c.note));
+    const row = c =>
+        Table.row({"data-effect": c.effect}, Table.head(Dom.name(c.effect)), Table.text(c.note));
     return Dom.fold(
         "not-fitted", `${all.length} not fitted, and why`, Table.make({}, null, all.map(row)));
   }

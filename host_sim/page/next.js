@@ -13,7 +13,8 @@ const Next = (() => {
   function cannotShow(all) {
     if (!all.length) return null;
     const row = u => Table.row(
-        {"data-effect": u.effect}, Table.head(u.effect), Table.text(u.why), Table.text(u.record));
+        {"data-effect": u.effect}, Table.head(Dom.name(u.effect)), Table.text(u.why),
+        Table.text(u.record));
     return [
       Dom.make("h3", {}, "What these captures cannot show"),
       Table.wide({id: "cannot-show"}, ["effect", "why", "record instead"], all.map(row))

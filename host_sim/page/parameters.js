@@ -61,7 +61,7 @@ const Parameters = (() => {
     const c = matrix[i][j], known = Numbers.known(c);
     const text = `${names[i]} and ${names[j]}: ${known ? c.toFixed(3) : "not known"}`;
     const tell = () => say(text);
-    const td = Table.number(c, known ? c.toFixed(2) : Numbers.none, {
+    const td = Table.number(c, known ? (Math.abs(c) < 0.005 ? 0 : c).toFixed(2) : Numbers.none, {
       tabindex: i + j === 0 ? "0" : "-1",
       "data-row": i,
       "data-column": j,

@@ -64,9 +64,8 @@ std::string of_diagnosis(const Diagnosis& d, double floor) {
                            "another move tells them apart.",
                            error, rivals(d));
     case Verdict::unknown:
-        return fmt::format("The model leaves {} of the torque, more than noise ({}), and no effect "
-                           "of the catalogue explains it.",
-                           error, noise_of(floor));
+        return fmt::format("The model leaves {} of the torque, more than noise ({}): {}.", error,
+                           noise_of(floor), d.advice);
     case Verdict::adequate:
         return fmt::format("The model explains this capture: what is left, {} of the torque, is "
                            "noise ({}).",
@@ -82,6 +81,7 @@ std::string of_refinement(const Refinement& r, const Model& given) {
     std::vector<std::string> added;
     for (const EffectTerm& term : r.result.model.effects)
         if (!given.find(term.name)) added.push_back(in_words(term.name));
+    if (added.empty()) return ""; // it is the refined one that is shown
     return fmt::format(" With {} together it comes down to {}.", listed(added),
                        percent(r.result.torque_error));
 }

@@ -158,7 +158,9 @@ class Story:
         said = program.answer("refine", self.model, self.capture)
         end = u.all(".ladder-table tr[data-step] [data-figure=fitted]")[-1]
         self.same(float(end.get_attribute("data-value")), said["ladder"][-1]["torque_error"])
-        self.same(u.number("error-after"), said["ladder"][-1]["torque_error"])
+        self.same(u.error(), said["ladder"][-1]["torque_error"])
+        self.assertIsNone(u.number("error-after"), "it is the refined model that is shown")
+        self.assertNotIn("together", u.text("sentence"))
 
     def test_a_report_and_a_reload_say_the_same(self):
         u = self.open()
