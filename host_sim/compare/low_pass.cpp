@@ -98,6 +98,13 @@ const LowPass::Taps& LowPass::cached_taps(int phase, int derivative) const {
 Eigen::VectorXd LowPass::apply(const Eigen::VectorXd& x, const Grid& grid, int derivative,
                                double shift_s) const {
     Eigen::VectorXd out(grid.count);
+    // The cache's lock is dear beside one sum: each set of taps is asked for once.
+    std::vector<const Taps*> known(size_t(kPhases) + 1, nullptr);
+    const auto taps_of = [&](int which) -> const Taps& {
+        const Taps*& place = known[size_t(which)];
+        if (!place) place = &cached_taps(which, derivative);
+        return *place;
+    };
     for (Eigen::Index k = 0; k < grid.count; ++k) {
         const double place = (grid.at(k) - shift_s) / sample_time_s_;
         const double whole = std::floor(place + 1e-9);
@@ -106,7 +113,7 @@ Eigen::VectorXd LowPass::apply(const Eigen::VectorXd& x, const Grid& grid, int d
         const double share = fine - phase; // of the next tap set
         const long first = long(whole) - reach_;
         const auto sum = [&](int which) {
-            const Taps& taps = cached_taps(which, derivative);
+            const Taps& taps = taps_of(which);
             const long lost = std::max(0L, -first);
             const long n = std::min(long(taps.size()), long(x.size()) - first);
             if (n <= lost) return 0.0;
