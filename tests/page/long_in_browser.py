@@ -63,7 +63,7 @@ class TenMinutes(unittest.TestCase):
         """The report by the verb: every effect is fitted."""
         capture, out = self.capture(cycles), self.folder / "long.html"
         start = time.monotonic()
-        program.run("report", MODEL, capture, "--no-refine", "--out", out)
+        program.run("report", MODEL, capture, "--no-refine", "--out", out, timeout=3600)
         took = time.monotonic() - start
         memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
         print(f"figure: report with diagnosis, {name} = {took:.0f} s, {memory:.2f} GB")

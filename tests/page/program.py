@@ -13,8 +13,9 @@ EXAMPLES = SOURCE / "examples"
 DATA = pathlib.Path(os.environ.get("SERVOID_DATA_DIR") or SOURCE / "../shared/data").resolve()
 
 
-def run(*words, code=0):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
+def run(*words, code=0, timeout=280):
+    command = [PROGRAM, *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
     if done.returncode != code:
         raise AssertionError(f"{words}: exit {done.returncode}\n{done.stdout}{done.stderr}")
     return done

@@ -216,7 +216,7 @@ class Server(unittest.TestCase):
         self.assertLess(time.monotonic() - start, 3)
 
     def test_a_port_that_is_taken(self):
-        said = program.run("studio", MODEL, self.capture, "--port", self.port, code=2)
+        said = program.run("studio", MODEL, self.capture, "--port", self.port, code=2, timeout=20)
         self.assertIn(f"port {self.port} cannot be listened on", said.stderr)
         self.assertEqual(said.stdout, "")
 
