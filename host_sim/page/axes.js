@@ -58,7 +58,8 @@ const Axes = (() => {
   function ticksOf(map, count) {
     if (map.log) return logTicks(map.from, map.to, count);
     const ticks = linearTicks(map.from, map.to, count);
-    return ticks.length > 1 ? ticks : linearTicks(map.from, map.to, 2 * count);  // one is no scale
+    const few = ticks.length < 2 && map.to > map.from && count < 20;
+    return few ? ticksOf(map, 2 * count) : ticks;  // one is no scale
   }
 
   function title(axis, spec, place) {
