@@ -62,15 +62,14 @@ void run_studio(const Options& o) {
     studio::Studio studio(setup_of(o));
     studio::Server server(studio, o.port);
     const EndOnSignal signals;
+    server.start();
     o.output.print_json({{"schema", "servoid.studio/1"}, {"url", server.url()}});
     o.output.line("studio at " + o.output.bold(server.url()));
     o.output.line("Open it in a browser on this machine. Ctrl-C ends it; save the model before.");
     std::cout << std::flush;
-    std::thread listener([&] { server.run(); });
     while (!EndOnSignal::wanted())
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     server.stop();
-    listener.join();
 }
 
 } // namespace

@@ -8,7 +8,8 @@ const Axes = (() => {
   function scale(from, to, start, end, log) {
     const f = log ? Math.log10 : x => x;
     const a = f(from), b = f(to);
-    const map = x => start + (end - start) * (f(x) - a) / (b - a);
+    const share = x => b > a ? (f(x) - a) / (b - a) : 0.5;  // one value is in the middle
+    const map = x => start + (end - start) * share(x);
     return Object.assign(map, {from, to, log: Boolean(log)});
   }
 
@@ -55,13 +56,16 @@ const Axes = (() => {
   }
 
   function ticksOf(map, count) {
-    return map.log ? logTicks(map.from, map.to, count) : linearTicks(map.from, map.to, count);
+    if (map.log) return logTicks(map.from, map.to, count);
+    const ticks = linearTicks(map.from, map.to, count);
+    const few = ticks.length < 2 && map.to > map.from && count < 20;
+    return few ? ticksOf(map, 2 * count) : ticks;  // one is no scale
   }
 
   function title(axis, spec, place) {
     return Dom.svg(
         "text", {class: "axis-title", "data-axis": axis, "data-unit": spec.unit, ...place},
-        `${spec.name}, ${spec.unit}`);
+        spec.unit === "1" ? spec.name : `${spec.name}, ${spec.unit}`);
   }
 
   function xTicks(map, bottom, count) {

@@ -39,11 +39,11 @@ const Candidates = (() => {
   }
 
   // What the model leaves, and what this effect would take of it: alike where the effect is right.
-  function signaturePlot(s, unit) {
+  function signaturePlot(s) {
     if (!s) return null;
     return Axes.chart(
         {class: "signature", "data-name": `signature of ${s.effect}`}, 190,
-        {name: s.against, unit: s.against_unit, values: s.x}, {name: "torque", unit: unit.torque}, [
+        {name: s.against, unit: s.against_unit, values: s.x}, {name: s.value, unit: s.value_unit}, [
           {name: "left by the model", values: s.residual, style: "residual"},
           {name: "taken by " + s.effect, values: s.effect_torque, style: "refined"}
         ]);
@@ -66,12 +66,13 @@ const Candidates = (() => {
     return Dom.make(
         "article", {class: "candidate", "data-effect": c.effect, "data-probability": c.probability},
         Dom.make("div", {class: "facts"}, facts),
-        Dom.make("div", {class: "proof"}, signaturePlot(view, story.unit)));
+        Dom.make("div", {class: "proof"}, signaturePlot(view)));
   }
 
   function notFitted(all) {
     if (!all.length) return null;
-    const row = c => Table.row({"data-effect": c.effect}, Table.head(c.effect), Table.text(c.note));
+    const row = c =>
+        Table.row({"data-effect": c.effect}, Table.head(Dom.name(c.effect)), Table.text(c.note));
     return Dom.fold(
         "not-fitted", `${all.length} not fitted, and why`, Table.make({}, null, all.map(row)));
   }

@@ -15,10 +15,10 @@ const Head = (() => {
     const d = story.diagnose, r = story.refine, c = story.compare;
     const now = d && Numbers.known(d.error_before) ? d.error_before : c && c.torque_error;
     const floor = [r, d, c].filter(Boolean).map(x => x.noise_floor).find(Numbers.known);
-    return {now, floor, ...after(d, r)};
+    return {now, floor, ...after(now, d, story.refined_toml ? r : null)};
   }
 
-  function after(d, r) {
+  function after(now, d, r) {
     const rungs = r ? r.ladder : [];
     if (rungs.length > 1)
       return {
@@ -27,7 +27,8 @@ const Head = (() => {
         taken: "what was added"
       };
     const best = d && d.candidates[0];
-    const found = best && (d.verdict === "missing" || d.verdict === "ambiguous");
+    const helps = best && d.verdict === "unknown" && best.error_after < 0.9 * now;
+    const found = best && (d.verdict === "missing" || d.verdict === "ambiguous" || helps);
     return found ? {after: best.error_after, by: "with " + best.effect, taken: best.effect} :
                    {after: null, by: ""};
   }

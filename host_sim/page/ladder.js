@@ -24,7 +24,10 @@ const Ladder = (() => {
   }
 
   function ticks(X, width, bottom) {
+    const apart = 26;  // pixels, so that none runs into the next
+    let last = -apart;
     return Axes.ticksOf(X, width / 90)
+        .filter(t => X(t) - last >= apart && (last = X(t)))
         .map(
             t => Dom.svg(
                 "g", {class: "tick"},

@@ -19,14 +19,15 @@ const Numbers = (() => {
   }
 
   function percent(share) {
+    if (share > 0 && share < 1e-5) return "< 0.001 %";
     return known(share) ? significant(100 * share, 3) + " %" : none;
   }
 
-  // A probability of nearly 1 is not 1.
+  // Nothing is certain: not even what is 1 to all digits.
   function probability(p) {
     if (!known(p)) return none;
-    if (p > 0.999 && p < 1) return "> 99.9 %";
-    if (p > 0 && p < 0.001) return "< 0.1 %";
+    if (p > 0.999) return "> 99.9 %";
+    if (p < 0.001) return "< 0.1 %";
     return significant(100 * p, 3) + " %";
   }
 
@@ -35,7 +36,7 @@ const Numbers = (() => {
     if (!known(value)) return none;
     if (!known(std) || std <= 0) return significant(value, 6);
     const size = Math.max(Math.abs(value), std);
-    if (size < 1e-3 || size >= 1e7) return scientific(value, std);
+    if (size < 1e-3 || size >= 1e6) return scientific(value, std);
     const decimals = Math.min(12, 1 - Math.floor(Math.log10(std)));
     return rounded(value, decimals) + " ± " + rounded(std, decimals);
   }

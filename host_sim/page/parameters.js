@@ -21,8 +21,10 @@ const Parameters = (() => {
   function bounds(r) {
     const low = Numbers.known(r.lower), high = Numbers.known(r.upper);
     if (!low && !high) return "";
-    return `${low ? Numbers.significant(r.lower) : "−∞"} … ${
-        high ? Numbers.significant(r.upper) : "∞"}`;
+    const positive = low && r.lower > 0 && r.lower < 1e-6;  // only that it must not be 0
+    if (positive && !high) return "> 0";
+    const least = positive ? "> 0" : low ? Numbers.significant(r.lower) : "−∞";
+    return `${least} … ${high ? Numbers.significant(r.upper) : "∞"}`;
   }
 
   function flags(r) {
@@ -59,7 +61,7 @@ const Parameters = (() => {
     const c = matrix[i][j], known = Numbers.known(c);
     const text = `${names[i]} and ${names[j]}: ${known ? c.toFixed(3) : "not known"}`;
     const tell = () => say(text);
-    const td = Table.number(c, known ? c.toFixed(2) : Numbers.none, {
+    const td = Table.number(c, known ? (Math.abs(c) < 0.005 ? 0 : c).toFixed(2) : Numbers.none, {
       tabindex: i + j === 0 ? "0" : "-1",
       "data-row": i,
       "data-column": j,
@@ -102,9 +104,12 @@ const Parameters = (() => {
             Dom.make("tbody", {}, names.map(row))));
   }
 
+  // Of those whose correlations are known: numbers that were searched for have none.
   function correlation(p) {
-    const matrix = p.correlation;
-    if (!matrix || matrix.length < 2) return null;
+    if (!p.correlation) return null;
+    const there = p.correlation.map((row, k) => k).filter(k => Numbers.known(p.correlation[k][k]));
+    if (there.length < 2) return null;
+    const matrix = there.map(i => there.map(j => p.correlation[i][j]));
     const reading =
         Dom.make("output", {id: "correlation-reading"}, "Point at a cell to read it in full.");
     const say = text => {
@@ -114,7 +119,7 @@ const Parameters = (() => {
         "figure", {id: "correlation"}, Dom.make("h3", {}, "Correlation"),
         Dom.make(
             "p", {class: "hint"}, "Near ±1: the captures cannot tell these two apart. ", reading),
-        heatTable(p.name, matrix, say));
+        heatTable(there.map(k => p.name[k]), matrix, say));
   }
 
   function section(story) {

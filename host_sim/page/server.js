@@ -7,10 +7,34 @@ const Server = (() => {
 
   const sleep = ms => new Promise(done => setTimeout(done, ms));
 
-  async function get(path) {
-    const answer = await fetch(path, {cache: "no-store", signal: AbortSignal.timeout(patience)});
+  async function get(path, signal) {
+    const answer = await fetch(path, {cache: "no-store", signal});
     if (!answer.ok) throw new Error(`${path}: status ${answer.status}`);
     return answer.json();
+  }
+
+  // A browser has six lines to a server: a tab that nobody sees leaves its own to the others.
+  function seen() {
+    if (!document.hidden) return Promise.resolve();
+    return new Promise(done => document.addEventListener("visibilitychange", done, {once: true}));
+  }
+
+  // null where the tab was hidden meanwhile.
+  async function news(after) {
+    await seen();
+    const gone = new AbortController();
+    const leave = () => document.hidden && gone.abort();
+    const late = setTimeout(() => gone.abort(new Error("no answer")), patience);
+    document.addEventListener("visibilitychange", leave);
+    try {
+      return await get(`api/state?after=${after}`, gone.signal);
+    } catch (fault) {
+      if (document.hidden) return null;
+      throw fault;
+    } finally {
+      clearTimeout(late);
+      document.removeEventListener("visibilitychange", leave);
+    }
   }
 
   // Told at every change, for as long as the page is open. A server that was started anew counts
@@ -19,10 +43,11 @@ const Server = (() => {
     let after = -1, pause = firstPause, away = false;
     for (;;) {
       try {
-        const state = await get(`api/state?after=${after}`);
+        const state = await news(after);
+        if (!state) continue;
         if (away) back();
         [away, pause] = [false, firstPause];
-        if (state.revision !== after) await changed(state);
+        if (state.revision !== after) changed(state);
         after = state.revision;
       } catch (fault) {
         if (!away) lost(fault);

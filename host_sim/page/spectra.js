@@ -11,11 +11,13 @@ const Spectra = (() => {
     ["mean", "mean", "constant torque"]
   ];
 
+  const longest = story => (story.captures || []).length > 1 ? ", of the longest capture" : "";
+
   function spectrum(story) {
     const s = story.spectrum;
     if (!s || !s.frequency_Hz.length) return null;
     return plot(
-        "spectrum", "Amplitude spectrum",
+        "spectrum", "Amplitude spectrum" + longest(story),
         Axes.chart(
             {"data-name": "amplitude spectrum"}, 240, {
               name: "frequency",
@@ -74,7 +76,7 @@ const Spectra = (() => {
     const known = r.coherence && r.coherence.some(Numbers.known);
     return Dom.make(
         "div", {id: "response"},
-        Dom.make("h3", {}, "Frequency response, from torque to acceleration"),
+        Dom.make("h3", {}, "Frequency response, from torque to acceleration" + longest(story)),
         Dom.make(
             "div", {class: "multiples"},
             chart(

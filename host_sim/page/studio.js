@@ -4,7 +4,7 @@
 const Studio = (() => {
   const boxes = {}, shown = {};
   const chosen = {name: null}, typed = {text: null};
-  let latest = null, storyRevision = null, serverError = null;
+  let latest = null, storyRevision = null, telling = false, serverError = null;
   let unit = {torque: "N·m", position: "rad"}, floor = null;
 
   // What somebody types is theirs until they leave the field.
@@ -73,24 +73,39 @@ const Studio = (() => {
     keep("history", [state.history, floor], () => Actions.history(state.history, floor));
   }
 
-  async function changed(state) {
+  // A story of a long capture takes its time; what the panel says of the work goes on meanwhile.
+  function changed(state) {
     latest = state;
     panel(state);
-    if (state.story_revision === storyRevision) return;
+    if (!telling) tell();
+  }
+
+  function told(now) {
+    telling = !now;
+    document.getElementById("studio").dataset.told = String(now);
+  }
+
+  // Until the story that is shown is that of the latest state.
+  async function tell() {
     try {
-      await tell(state);
+      while (storyRevision !== latest.story_revision) {
+        told(false);
+        const wanted = latest.story_revision;
+        show(await Server.story());
+        storyRevision = wanted;
+        panel(latest);
+      }
     } catch (fault) {
       complain(fault.message);
+    } finally {
+      told(true);
     }
   }
 
-  async function tell(state) {
-    const story = await Server.story();
+  function show(story) {
     unit = story.unit;
     floor = story.compare && story.compare.noise_floor;
     Story.tell(story, effect => act("add", {effect}));
-    storyRevision = state.story_revision;
-    panel(state);
   }
 
   function build() {

@@ -18,7 +18,7 @@ const Terms = (() => {
       type: "text",
       inputmode: "decimal",
       id: "value-" + p.name,
-      value: Numbers.significant(p.value, 6),
+      value: Numbers.significant(p.value, 5),
       "data-value": p.value,
       autocomplete: "off",
       spellcheck: "false",
@@ -37,7 +37,7 @@ const Terms = (() => {
     const nudge = direction => {
       const value = parse(input.value);
       if (!Numbers.known(value)) return;
-      input.value = Numbers.significant(value + direction * stepOf(value), 6);
+      input.value = Numbers.significant(value + direction * stepOf(value), 5);
       clearTimeout(timer);
       timer = setTimeout(commit, calm);
     };

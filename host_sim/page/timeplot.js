@@ -95,7 +95,7 @@ const TimePlot = (() => {
     return rebuild;
   }
 
-  function panel(capture, unit) {
+  function panel(capture, unit, adequate) {
     const strips = stripsOf(capture, unit);
     replace(strips);
     const {span, tell} = TimeWindow.reading();
@@ -113,7 +113,7 @@ const TimePlot = (() => {
     return [
       Dom.make(
           "div", {class: "controls"}, TimeWindow.buttons(view), span, toggles(capture, themed)),
-      plots, Dom.make("p", {class: "hint"}, handHelp), Worst.list(view)
+      plots, Dom.make("p", {class: "hint"}, handHelp), Worst.list(view, adequate)
     ];
   }
 
@@ -140,6 +140,13 @@ const TimePlot = (() => {
                 names[k])));
   }
 
+  function band(captures) {
+    const all = captures.map(c => c.band_Hz).filter(Numbers.known);
+    if (!all.length) return ".";
+    const ends = [Math.min(...all), Math.max(...all)].map(f => Numbers.significant(f, 3));
+    return `; both up to ${[...new Set(ends)].join(" … ")} Hz.`;
+  }
+
   Theme.onChange(() => themed());
 
   function section(story) {
@@ -148,15 +155,14 @@ const TimePlot = (() => {
     const place = Dom.make("div", {});
     const choose = capture => {
       kept.file = capture.file;
-      Dom.refill(place, tabs(captures, capture, choose), panel(capture, story.unit));
+      Dom.refill(
+          place, tabs(captures, capture, choose),
+          panel(capture, story.unit, story.verdict === "adequate"));
     };
     choose(captures.find(c => c.file === kept.file) || captures[0]);
-    const band = captures[0].band_Hz;
     return Dom.section(
         "time", "Over time",
-        "Measured torque and the model's, below it what the model leaves" +
-            (Numbers.known(band) ? `; both up to ${Numbers.significant(band, 3)} Hz.` : "."),
-        place);
+        "Measured torque and the model's, below it what the model leaves" + band(captures), place);
   }
 
   return {section};

@@ -19,10 +19,12 @@ const Worst = (() => {
         Dom.make("span", {}, `${residual} of the residual on ${samples} of the samples`));
   }
 
-  function list(view) {
+  // adequate: what is left is noise.
+  function list(view, adequate) {
     if (!view.bands.length) return null;
     return Dom.make(
-        "div", {class: "worst"}, Dom.make("h3", {}, "Where most of the residual is"),
+        "div", {class: "worst"}, Dom.make("h3", {}, "Where the residual is densest"),
+        adequate && Dom.make("p", {class: "hint"}, "What is left is noise: by chance, then."),
         Dom.make("ol", {}, view.bands.map((w, k) => Dom.make("li", {}, button(w, k, view)))));
   }
 

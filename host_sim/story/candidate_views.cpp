@@ -81,8 +81,8 @@ Json candidate_views(const Diagnosis& diagnosis, const Scene& scene,
         view["effect"] = candidate.effect;
         view["against"] = name.name;
         view["against_unit"] = name.unit;
-        view["value"] = against == Against::in_phase     ? "residual in phase with the torque"
-                        : against == Against::quadrature ? "residual a quarter of a turn off"
+        view["value"] = against == Against::in_phase     ? "in phase"
+                        : against == Against::quadrature ? "a quarter of a turn off"
                                                          : "mean torque";
         view["value_unit"] = lines ? "% of torque" : scene.unit(Quantity::torque);
         out.push_back(view);

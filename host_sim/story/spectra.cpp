@@ -81,8 +81,8 @@ Json spectrum_json(const Scene& scene, double noise_floor) {
     const PreparedMotion& m = c.motion;
     const Spectrum torque = power_spectrum(c.delivered, m.grid.step_s);
     const Spectrum residual = power_spectrum(c.residual(), m.grid.step_s);
-    const Eigen::Index used = std::clamp<Eigen::Index>(
-        Eigen::Index(1.45 * m.band_Hz / torque.step_Hz), 1, torque.power.size());
+    const Eigen::Index used = std::clamp<Eigen::Index>(Eigen::Index(m.band_Hz / torque.step_Hz) + 1,
+                                                       1, torque.power.size());
     const Eigen::Index bins = (used + kMostLines - 1) / kMostLines;
     std::vector<double> frequency, floor;
     // As if it were white up to the band's edge.

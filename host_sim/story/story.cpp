@@ -103,10 +103,18 @@ Json captures_of(const Shown& shown) {
     return out;
 }
 
+// What refining found, where it is not what is shown anyway.
+const FitResult* beyond(const StoryInput& in) {
+    if (!in.refinement) return nullptr;
+    const FitResult& found = in.refinement->result;
+    return format_model(found.model) == format_model(in.shown) ? nullptr : &found;
+}
+
 Json parameters_of(const StoryInput& in) {
     Json out = {{"before", nullptr}, {"after", nullptr}};
     if (in.fit) out["before"] = parameter_table(*in.fit, in.given, ampere(in));
-    if (in.refinement) out["after"] = parameter_table(in.refinement->result, in.given, ampere(in));
+    if (const FitResult* found = beyond(in))
+        out["after"] = parameter_table(*found, in.given, ampere(in));
     return out;
 }
 
@@ -142,9 +150,8 @@ Json make_story(const StoryInput& in) {
     const Comparison comparison = compare(in.shown, in.motions);
     const Scene scene = scene_of(in.shown, in.motions, comparison.homing);
     Shown shown{in, scene, std::nullopt};
-    if (in.refinement)
-        shown.refined.emplace(
-            scene_of(in.refinement->result.model, in.motions, in.refinement->result.homing));
+    const FitResult* refined = beyond(in);
+    if (refined) shown.refined.emplace(scene_of(refined->model, in.motions, refined->homing));
     Json out = {
         {"schema", "servoid.story/1"},
         {"title", in.given.name},
@@ -160,8 +167,7 @@ Json make_story(const StoryInput& in) {
         {"given_error", number(compare(in.given, in.motions).torque_error)}};
     add_answers(out, in, comparison);
     out["model_toml"] = format_model(in.given);
-    out["refined_toml"] =
-        in.refinement ? Json(format_model(in.refinement->result.model)) : Json(nullptr);
+    out["refined_toml"] = refined ? Json(format_model(refined->model)) : Json(nullptr);
     out["captures"] = captures_of(shown);
     out["against"] = against_json(scene);
     out["spectrum"] = spectrum_json(scene, comparison.floor.ratio);

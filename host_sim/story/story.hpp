@@ -15,7 +15,8 @@
 //   compare     servoid.compare/1 of the model on that basis
 //   diagnose    servoid.diagnose/1, or null where it was not asked for
 //   refine      servoid.refine/1, or null
-//   model_toml, refined_toml   model files; the second null without a refinement
+//   model_toml, refined_toml   model files; the second, and all that is refined below, null
+//               without a refinement, and where it is the refined model that is shown
 //   captures    per capture: file, sha256, rows, duration_s, sample_time_s, columns (names),
 //               band_Hz, series, worst
 //     series      "recorded_torque", "recorded_position", "torque", "model_torque", "residual",

@@ -9,8 +9,10 @@
 #include <sys/random.h>
 
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <functional>
+#include <thread>
 
 namespace servoid::studio {
 
@@ -20,8 +22,22 @@ using httplib::Request;
 using httplib::Response;
 
 constexpr auto kPatience = std::chrono::seconds(20); // of a long poll
+constexpr auto kCrowded = std::chrono::seconds(1);   // of those beyond kMostWaiting
 constexpr size_t kLargest = size_t(1) << 30U;        // capture
-constexpr size_t kThreads = 24;                      // a tab holds one while it waits
+constexpr size_t kThreads = 64;                      // a tab holds one while it waits
+constexpr const char* kNoAction = "that is no JSON object of an action";
+constexpr int kMostWaiting = 48; // the others act meanwhile
+
+// One of those who wait, for as long as it lives.
+struct Waiting {
+    std::atomic<int>& count;
+    const int place;
+    explicit Waiting(std::atomic<int>& c) : count(c), place(++c) {}
+    ~Waiting() { --count; }
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+    bool crowded() const { return place > kMostWaiting; }
+};
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
@@ -55,6 +71,12 @@ httplib::Headers safe_headers() {
             {"Cross-Origin-Resource-Policy", "same-origin"}};
 }
 
+// The library would share the port with whoever else listens there.
+void listen_alone(socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
+
 long revision_of(const Request& request) {
     const std::string text = request.get_param_value("after");
     long out = -1;
@@ -77,9 +99,12 @@ struct Server::Inside {
     httplib::Server http;
     std::string token = random_token(), host;
     int port = 0;
+    std::thread listener;
+    std::atomic<int> waiting{0};
 
     Inside(Studio& s, int wanted) : studio(s) {
         http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+        http.set_socket_options(listen_alone);
         http.set_default_headers(safe_headers());
         http.set_payload_max_length(kLargest);
         http.set_keep_alive_timeout(2);
@@ -109,7 +134,7 @@ struct Server::Inside {
                 if (!is_ours(request)) return refuse(response, 403, "not from this page");
                 work(request, response);
             } catch (const Json::exception&) {
-                refuse(response, 400, "that is no JSON object of an action");
+                refuse(response, 400, kNoAction);
             } catch (const Error& e) {
                 refuse(response, 409, e.what());
             } catch (const std::exception& e) {
@@ -137,7 +162,8 @@ struct Server::Inside {
             r.set_content(studio_page(), "text/html; charset=utf-8");
         });
         get("api/state", [this](const Request& q, Response& r) {
-            answer(r, studio.state(revision_of(q), kPatience));
+            const Waiting here(waiting);
+            answer(r, studio.state(revision_of(q), here.crowded() ? kCrowded : kPatience));
         });
         get("api/story", [this](const Request&, Response& r) { answer(r, *studio.story()); });
         get("api/model.toml", [this](const Request&, Response& r) {
@@ -147,7 +173,9 @@ struct Server::Inside {
             download(r, report_page(*studio.story()), "text/html; charset=utf-8", "report.html");
         });
         post("api/do", [this](const Request& q, Response& r) {
-            answer(r, {{"revision", studio.act(Json::parse(q.body))}});
+            const Json action = Json::parse(q.body);
+            if (!action.is_object()) return refuse(r, 400, kNoAction);
+            answer(r, {{"revision", studio.act(action)}});
         });
         post("api/capture", [this](const Request& q, Response& r) {
             answer(r, {{"revision", studio.add_capture(name_of(q), q.body)}});
@@ -156,13 +184,22 @@ struct Server::Inside {
 };
 
 Server::Server(Studio& studio, int port) : inside_(std::make_unique<Inside>(studio, port)) {}
-Server::~Server() = default;
+Server::~Server() { stop(); }
 
 std::string Server::url() const { return "http://" + inside_->host + inside_->base(); }
-void Server::run() { inside_->http.listen_after_bind(); }
+
+// The library forgets to stop where it has not begun to listen.
+void Server::start() {
+    inside_->listener = std::thread([this] { inside_->http.listen_after_bind(); });
+    while (!inside_->http.is_running())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 void Server::stop() {
+    if (!inside_->listener.joinable()) return;
     inside_->studio.wake();
     inside_->http.stop();
+    inside_->listener.join();
 }
 
 } // namespace servoid::studio

@@ -22,8 +22,8 @@ class Server {
     Server& operator=(const Server&) = delete;
 
     std::string url() const; // "http://127.0.0.1:PORT/TOKEN/"
-    void run();              // until stop()
-    void stop();             // by any thread
+    void start();            // listens, in a thread of its own
+    void stop();             // and waits for its end
 
   private:
     struct Inside; // keeps the HTTP library's headers out of here

@@ -34,7 +34,8 @@ return bad;"""
 
 AXES = """
 const all = what => [...document.querySelectorAll(what)];
-const bad = t => !t.dataset.unit || !t.textContent.endsWith(', ' + t.dataset.unit);
+const bad = t => !t.dataset.unit ||
+  (t.dataset.unit !== '1' && !t.textContent.endsWith(', ' + t.dataset.unit));
 const bare = all('svg.plot, .strip').filter(p => !p.querySelector('.axis-title'));
 return all('.axis-title').filter(bad).concat(bare).map(e => e.outerHTML.slice(0, 200));"""
 
@@ -90,6 +91,40 @@ class Report(unittest.TestCase):
     def open_folds(self):
         self.run_script("document.querySelectorAll('details').forEach(d => { d.open = true; })")
         browser.settle(self.driver)
+
+    def shown(self, expression):
+        return self.driver.execute_script("return " + expression)
+
+    def test_numbers_do_not_say_more_than_is_known(self):
+        with browser.report(self.driver, synthetic.story()):
+            for number, text in (
+                ("probability(1)", "> 99.9 %"),
+                ("probability(0)", "< 0.1 %"),
+                ("percent(8.95e-7)", "< 0.001 %"),
+                ("withStd(3500000, 330000)", "(3.50 ± 0.33)e6"),
+            ):
+                self.assertEqual(self.shown("Numbers." + number), text)
+
+    def test_every_scale_has_two_ticks_at_least(self):
+        with browser.report(self.driver, synthetic.story()):
+            for span in (49, 99, 1.9, 5, 10.1):
+                ticks = self.shown(f"Axes.ticksOf(Axes.scale(-{span}, {span}, 0, 100), 2.2)")
+                self.assertGreaterEqual(len(ticks), 2, span)
+            self.assertEqual(self.shown("Axes.scale(3, 3, 0, 100, true)(3)"), 50)
+
+    def test_a_candidate_has_the_unit_of_its_own_picture(self):
+        story = copy.deepcopy(synthetic.story())
+        story["candidates"][0] |= {"value": "in phase", "value_unit": "% of torque"}
+        with browser.report(self.driver, story):
+            title = self.driver.find_element(
+                By.CSS_SELECTOR, ".candidate .axis-title[data-axis=y]"
+            )
+            self.assertEqual(title.text, "in phase, % of torque")
+
+    def test_what_the_ladder_leaves_is_said(self):
+        with browser.report(self.driver, synthetic.story()):
+            said = self.driver.find_element(By.ID, "refined-advice").text
+            self.assertIn("nothing in the catalogue explains the residual", said)
 
     def test_is_quiet_and_asks_for_nothing(self):
         with browser.report(self.driver, self.story) as file:

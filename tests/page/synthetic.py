@@ -49,6 +49,8 @@ def signature(effect, against, unit, x, residual, taken):
         "effect": effect,
         "against": against,
         "against_unit": unit,
+        "value": "mean torque",
+        "value_unit": "N",
         "x": x,
         "residual": residual,
         "effect_torque": taken,
