@@ -30,7 +30,7 @@ class Story:
         u = self.open()
         u.until_diagnosed()
         self.assertEqual(u.verdict(), told["verdict"])
-        self.assertIn(self.effect.replace("_", " "), u.text("sentence"))
+        self.assertIn(self.effect.replace("_", " "), u.text("sentence").lower())
         self.same(u.error(), told["error_before"])
         first = u.all(".candidate")[0]
         self.assertEqual(first.get_attribute("data-effect"), self.effect)
