@@ -109,8 +109,9 @@ const Where = (() => {
   }
 
   function section(story) {
-    const parts =
-        [scatters(story), shares(story), Spectra.parts(story)].flat(Infinity).filter(Boolean);
+    const parts = [
+      Facts.list(story), scatters(story), shares(story), Spectra.parts(story)
+    ].flat(Infinity).filter(Boolean);
     return parts.length ? Dom.section(
                               "where", "Where it fails",
                               "What the residual follows tells which physics is missing.", parts) :

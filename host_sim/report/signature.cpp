@@ -1,5 +1,6 @@
 #include "report/signature.hpp"
 
+#include "compare/against.hpp"
 #include "compare/compare.hpp"
 #include "compare/regression.hpp"
 #include "plant/simulate.hpp"
@@ -61,32 +62,8 @@ Axis axis_of(Against against) {
     return {"frequency", "Hz"};
 }
 
-Vector rate_of(const Vector& x, double step_s) {
-    Vector out = Vector::Zero(x.size());
-    for (Eigen::Index k = 1; k + 1 < x.size(); ++k)
-        out[k] = (x[k + 1] - x[k - 1]) / (2 * step_s);
-    return out;
-}
-
-Vector variable(Against against, const PreparedMotion& m) {
-    switch (against) {
-    case Against::position:
-        return m.position;
-    case Against::acceleration:
-        return m.acceleration;
-    case Against::time:
-        return Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1));
-    case Against::torque:
-        return m.torque;
-    case Against::torque_rate:
-        return rate_of(m.torque, m.grid.step_s);
-    default:
-        return m.velocity;
-    }
-}
-
 void draw_points(Signature& out, Against against, const PreparedMotion& m, const Vector& residual) {
-    const Vector x = variable(against, m);
+    const Vector x = variable_of(against, m, m.torque);
     for (Eigen::Index k = 1; k + 1 < residual.size(); ++k) {
         if (!m.used[size_t(k)]) continue;
         out.x.push_back(x[k]), out.y.push_back(residual[k]);

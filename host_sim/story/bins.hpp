@@ -15,6 +15,7 @@ struct MeanBin {
     double mean = 0, std = 0;                // of the values in it
     double power_share = 0, count_share = 0; // of the values' power, of their number
     double middle() const { return 0.5 * (from + to); }
+    double width() const { return to - from; }
 };
 
 // Bins of equal width between the 0.1th and 99.9th percentile of where the points are; those

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace servoid {
 
 namespace {
@@ -35,8 +37,14 @@ Json over_bins(Against against, const Scene& scene, const Vectors& residual, con
     std::vector<double> x, r, t;
     const auto r_bins = mean_over(points_against(against, scene, residual), kBins);
     const auto t_bins = mean_over(points_against(against, scene, taken), kBins);
-    for (size_t i = 0; i < r_bins.size(); ++i)
-        x.push_back(r_bins[i].middle()), r.push_back(r_bins[i].mean), t.push_back(t_bins[i].mean);
+    const auto put = [&](double place, double left, double by_effect) {
+        x.push_back(place), r.push_back(left), t.push_back(by_effect);
+    };
+    for (size_t i = 0; i < r_bins.size(); ++i) {
+        const bool gap = i > 0 && r_bins[i].from > r_bins[i - 1].to + 1e-9 * r_bins[i].width();
+        if (gap) put(r_bins[i].from, NAN, NAN); // nothing was seen there: no line across
+        put(r_bins[i].middle(), r_bins[i].mean, t_bins[i].mean);
+    }
     return {{"x", numbers(x)}, {"residual", numbers(r)}, {"effect_torque", numbers(t)}};
 }
 

@@ -1,23 +1,13 @@
 #include "story/scene.hpp"
 
+#include "compare/against.hpp"
 #include "compare/regression.hpp"
 
 #include <algorithm>
 
 namespace servoid {
 
-namespace {
-
 using Vector = Eigen::VectorXd;
-
-Vector rate_of(const Vector& x, double step_s) {
-    Vector out = Vector::Zero(x.size());
-    for (Eigen::Index k = 1; k + 1 < x.size(); ++k)
-        out[k] = (x[k + 1] - x[k - 1]) / (2 * step_s);
-    return out;
-}
-
-} // namespace
 
 std::string Scene::unit(Quantity quantity) const {
     return unit_of(quantity, model.motion, captures.front().motion.capture->torque_in_ampere);
@@ -38,24 +28,6 @@ Scene scene_of(const Model& model, const std::vector<PreparedMotion>& motions,
         out.captures.push_back({m, here, delivered_torque(here, m), model_torque(here, m)});
     }
     return out;
-}
-
-Vector variable_of(Against against, const SceneCapture& capture) {
-    const PreparedMotion& m = capture.motion;
-    switch (against) {
-    case Against::position:
-        return m.position;
-    case Against::time:
-        return Vector::LinSpaced(m.grid.count, m.grid.at(0), m.grid.at(m.grid.count - 1));
-    case Against::acceleration:
-        return m.acceleration;
-    case Against::torque:
-        return capture.model_torque;
-    case Against::torque_rate:
-        return rate_of(capture.model_torque, m.grid.step_s);
-    default:
-        return m.velocity;
-    }
 }
 
 VariableName name_of(Against against, const Scene& scene) {
@@ -84,7 +56,7 @@ std::vector<Point> points_against(Against against, const Scene& scene,
     std::vector<Point> out;
     for (size_t i = 0; i < scene.captures.size(); ++i) {
         const SceneCapture& c = scene.captures[i];
-        const Vector x = variable_of(against, c);
+        const Vector x = variable_of(against, c.motion, c.model_torque);
         if (x.size() != value[i].size()) return {}; // no position was recorded
         for (Eigen::Index k = 0; k < x.size(); ++k)
             if (c.motion.used[size_t(k)]) out.emplace_back(x[k], value[i][k]);

@@ -27,8 +27,7 @@ struct Scene {
 Scene scene_of(const Model& model, const std::vector<PreparedMotion>& motions,
                const Homing& homing);
 
-// Where an instant is, by what a residual may be drawn against (not in_phase, quadrature).
-Eigen::VectorXd variable_of(Against against, const SceneCapture& capture);
+// What a residual is drawn against.
 struct VariableName {
     std::string name, unit;
 };

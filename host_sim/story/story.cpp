@@ -49,7 +49,6 @@ void add_recorded(Json& out, const Capture& c, size_t most) {
         return c.uniform ? series_json(column, axis, most) : Json(nullptr);
     };
     out["recorded_torque"] = series(c.torque_ref.empty() ? c.torque : c.torque_ref);
-    out["recorded_position"] = series(c.position);
 }
 
 void add_loop(Json& out, const SceneCapture& c, size_t most) {
@@ -74,7 +73,6 @@ Json series_of(const Shown& shown, size_t i) {
     out["refined_residual"] =
         shown.refined ? series(shown.refined->captures[i].residual()) : Json(nullptr);
     out["position"] = series(c.motion.position);
-    out["velocity"] = series(c.motion.velocity);
     add_loop(out, c, shown.most());
     return out;
 }
@@ -118,14 +116,6 @@ Json parameters_of(const StoryInput& in) {
     return out;
 }
 
-// Of the model as it came, then of the refined one.
-std::string advice(const StoryInput& in) {
-    std::string out = in.diagnosis ? in.diagnosis->advice : "";
-    if (in.refinement && in.refinement->ladder.size() > 1 && in.refinement->last.advice != out)
-        out += ". Of the refined model: " + in.refinement->last.advice;
-    return out;
-}
-
 void add_answers(Json& out, const StoryInput& in, const Comparison& comparison) {
     std::vector<Capture> captures;
     for (const PreparedMotion& m : in.motions) {
@@ -162,7 +152,7 @@ Json make_story(const StoryInput& in) {
           {"acceleration", scene.unit(Quantity::acceleration)}}},
         {"verdict", in.diagnosis ? Json(verdict_name(in.diagnosis->verdict)) : Json(nullptr)},
         {"sentence", sentence(comparison, in.diagnosis, in.refinement)},
-        {"advice", advice(in)},
+        {"advice", in.diagnosis ? in.diagnosis->advice : ""},
         {"basis", in.fit ? "fitted" : "as given"},
         {"given_error", number(compare(in.given, in.motions).torque_error)}};
     add_answers(out, in, comparison);

@@ -19,8 +19,8 @@
 //               without a refinement, and where it is the refined model that is shown
 //   captures    per capture: file, sha256, rows, duration_s, sample_time_s, columns (names),
 //               band_Hz, series, worst
-//     series      "recorded_torque", "recorded_position", "torque", "model_torque", "residual",
-//                 "refined_torque", "refined_residual", "position", "velocity",
+//     series      "recorded_torque", "torque", "model_torque", "residual",
+//                 "refined_torque", "refined_residual", "position",
 //                 "loop_position": each a Series or null. torque, model_torque, residual and the
 //                 refined ones are through the band limit; position and velocity on the same
 //                 instants; loop_position: of the model in its own loop

@@ -95,14 +95,12 @@ def capture(name, tracks, step, bucket):
     s = lambda key: series(tracks[key], step, bucket) if key in tracks else None
     keys = (
         "recorded_torque",
-        "recorded_position",
         "torque",
         "model_torque",
         "residual",
         "refined_torque",
         "refined_residual",
         "position",
-        "velocity",
         "loop_position",
     )
     rows = len(tracks["torque"])
@@ -139,13 +137,11 @@ def tracks_of(position, velocity, acceleration, torque, model, refined):
     residual = [t - m for t, m in zip(torque, model)]
     return {
         "recorded_torque": [t + gauss(0, 4) for t in torque],
-        "recorded_position": list(position),
         "torque": torque,
         "model_torque": model,
         "residual": residual,
         "refined_torque": refined,
         "refined_residual": [t - r for t, r in zip(torque, refined)],
         "position": list(position),
-        "velocity": list(velocity),
         "loop_position": [p + 2e-5 for p in position],
     }
