@@ -109,13 +109,12 @@ const Where = (() => {
   }
 
   function section(story) {
-    const parts = [
-      Facts.list(story), scatters(story), shares(story), Spectra.parts(story)
-    ].flat(Infinity).filter(Boolean);
-    return parts.length ? Dom.section(
-                              "where", "Where it fails",
-                              "What the residual follows tells which physics is missing.", parts) :
-                          null;
+    const parts =
+        [scatters(story), shares(story), Spectra.parts(story)].flat(Infinity).filter(Boolean);
+    if (!parts.length) return null;
+    return Dom.section(
+        "where", "Where it fails", "What the residual follows tells which physics is missing.",
+        [Facts.list(story)].filter(Boolean).concat(parts));
   }
 
   return {section};
