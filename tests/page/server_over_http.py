@@ -160,9 +160,18 @@ class Server(unittest.TestCase):
             self.assertRegex(line.recv(100), rb"^HTTP/1.1 413 ")
         self.state()
 
+    def settled(self):
+        """The revision once nothing is done any more: the end of the work is one more."""
+        for _ in range(100):
+            state = self.state()
+            time.sleep(0.1)
+            if state["busy"] is None and self.state()["revision"] == state["revision"]:
+                return state["revision"]
+        self.fail("never settled")
+
     def waiting(self, count):
         """So many long polls, each in a thread; their answers come into the list."""
-        after, answers = self.state()["revision"], []
+        after, answers = self.settled(), []
 
         def poll():
             try:
