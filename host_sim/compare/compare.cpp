@@ -131,6 +131,18 @@ NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMoti
     return pooled_floor(parts_of(model, motions, homing));
 }
 
+double torque_error_of(const Model& model, const std::vector<PreparedMotion>& motions,
+                       size_t first) {
+    const Homing homing = homing_against(model, motions, first);
+    double residual = 0, torque = 0;
+    for (size_t i = 0; i < motions.size(); ++i) {
+        const PreparedMotion& m = motions[i];
+        residual += m.used_power(residual_torque(at_zero(model, homing.of(i)), m));
+        torque += m.used_power(m.torque);
+    }
+    return std::sqrt(residual / torque);
+}
+
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions) {
     Comparison out;
     out.homing = homing_against(model, motions, 1);

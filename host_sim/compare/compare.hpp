@@ -40,6 +40,11 @@ struct Comparison {
 NoiseFloor noise_floor_of_all(const Model& model, const std::vector<PreparedMotion>& motions,
                               const Homing& homing = {});
 
+// ‖T − T̂‖/‖T‖ of all captures together, as compare() says it, and nothing else. Captures from
+// `first` on may have their own position zero.
+double torque_error_of(const Model& model, const std::vector<PreparedMotion>& motions,
+                       size_t first = 1);
+
 // All captures together: powers add up. Those after the first may have their own position zero.
 Comparison compare(const Model& model, const std::vector<PreparedMotion>& motions);
 

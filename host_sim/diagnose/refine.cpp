@@ -23,15 +23,8 @@ constexpr double kLost = 0.01;        // an effect whose removal costs less is n
 // where there are none.
 double validation_error(const FitResult& fit, Assembler& assembler,
                         const std::vector<PreparedMotion>& validation) {
-    if (validation.empty()) return held_out_error(fit, assembler);
-    double residual = 0, torque = 0;
-    const Homing homing = homing_against(fit.model, validation, 0);
-    for (size_t i = 0; i < validation.size(); ++i) {
-        const PreparedMotion& m = validation[i];
-        residual += m.used_power(residual_torque(at_zero(fit.model, homing.of(i)), m));
-        torque += m.used_power(m.torque);
-    }
-    return std::sqrt(residual / torque);
+    return validation.empty() ? held_out_error(fit, assembler)
+                              : torque_error_of(fit.model, validation, 0);
 }
 
 // The candidate that a greedy step takes: the most probable one that is worth its parameters; its

@@ -24,9 +24,7 @@ Json bins_json(const std::vector<MeanBin>& bins) {
 } // namespace
 
 Json against_json(const Scene& scene) {
-    std::vector<Eigen::VectorXd> residuals;
-    for (const SceneCapture& c : scene.captures)
-        residuals.push_back(c.residual());
+    const std::vector<Eigen::VectorXd> residuals = residuals_of(scene);
     Json out = Json::array();
     for (const Against against :
          {Against::velocity, Against::position, Against::acceleration, Against::torque}) {

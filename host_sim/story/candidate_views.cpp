@@ -16,13 +16,6 @@ using Vectors = std::vector<Eigen::VectorXd>;
 constexpr size_t kMost = 8;
 constexpr size_t kBins = 32;
 
-Vectors residuals_of(const Scene& scene) {
-    Vectors out;
-    for (const SceneCapture& c : scene.captures)
-        out.push_back(c.residual());
-    return out;
-}
-
 // What the effect, with everything else fitted again, takes of the residual.
 Vectors taken_by(const Candidate& candidate, const Vectors& residual,
                  const std::vector<PreparedMotion>& motions) {
@@ -48,27 +41,24 @@ Json over_bins(Against against, const Scene& scene, const Vectors& residual, con
     return {{"x", numbers(x)}, {"residual", numbers(r)}, {"effect_torque", numbers(t)}};
 }
 
-// Line by line, the part that is in phase with the model's torque or a quarter of a turn off, as
-// torque: the ratio times the torque's rms would hide where the torque is.
+// Line by line, in % of the model's torque: the part in phase with it, or a quarter of a turn off.
 Json over_lines(Against against, const Scene& scene, const Vectors& residual,
                 const Vectors& taken) {
     const SceneCapture& c = scene.longest();
     const auto place = size_t(&c - scene.captures.data());
     const Segments segments{c.motion.period_s, c.motion.band_Hz};
-    const double step = c.motion.grid.step_s;
-    const auto of = [&](const Eigen::VectorXd& y) {
-        std::vector<double> out;
-        for (const TransferLine& line : transfer(c.model_torque, y, step, segments))
-            out.push_back(
-                100 * (against == Against::in_phase ? line.response.real() : line.response.imag()));
-        return out;
+    const auto lines = [&](const Eigen::VectorXd& y) {
+        return transfer(c.model_torque, y, c.motion.grid.step_s, segments);
     };
-    std::vector<double> x;
-    for (const TransferLine& line : transfer(c.model_torque, residual[place], step, segments))
-        x.push_back(line.frequency_Hz);
-    return {{"x", numbers(x)},
-            {"residual", numbers(of(residual[place]))},
-            {"effect_torque", numbers(of(taken[place]))}};
+    const auto part = [&](const TransferLine& line) {
+        return 100 * (against == Against::in_phase ? line.response.real() : line.response.imag());
+    };
+    std::vector<double> x, r, t;
+    for (const TransferLine& line : lines(residual[place]))
+        x.push_back(line.frequency_Hz), r.push_back(part(line));
+    for (const TransferLine& line : lines(taken[place]))
+        t.push_back(part(line));
+    return {{"x", numbers(x)}, {"residual", numbers(r)}, {"effect_torque", numbers(t)}};
 }
 
 } // namespace

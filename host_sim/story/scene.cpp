@@ -30,6 +30,13 @@ Scene scene_of(const Model& model, const std::vector<PreparedMotion>& motions,
     return out;
 }
 
+std::vector<Vector> residuals_of(const Scene& scene) {
+    std::vector<Vector> out;
+    for (const SceneCapture& c : scene.captures)
+        out.push_back(c.residual());
+    return out;
+}
+
 VariableName name_of(Against against, const Scene& scene) {
     switch (against) {
     case Against::position:

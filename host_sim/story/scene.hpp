@@ -27,6 +27,8 @@ struct Scene {
 Scene scene_of(const Model& model, const std::vector<PreparedMotion>& motions,
                const Homing& homing);
 
+std::vector<Eigen::VectorXd> residuals_of(const Scene& scene); // one a capture
+
 // What a residual is drawn against.
 struct VariableName {
     std::string name, unit;

@@ -99,9 +99,7 @@ Json spectrum_json(const Scene& scene, double noise_floor) {
 }
 
 Json orders_json(const Scene& scene) {
-    std::vector<Vector> residuals;
-    for (const SceneCapture& c : scene.captures)
-        residuals.push_back(c.residual());
+    const std::vector<Eigen::VectorXd> residuals = residuals_of(scene);
     const std::vector<Point> points =
         every_nth(points_against(Against::position, scene, residuals), kOrderPoints);
     if (points.size() < 100) return nullptr;

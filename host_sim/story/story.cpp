@@ -154,7 +154,7 @@ Json make_story(const StoryInput& in) {
         {"sentence", sentence(comparison, in.diagnosis, in.refinement)},
         {"advice", in.diagnosis ? in.diagnosis->advice : ""},
         {"basis", in.fit ? "fitted" : "as given"},
-        {"given_error", number(compare(in.given, in.motions).torque_error)}};
+        {"given_error", number(torque_error_of(in.given, in.motions))}};
     add_answers(out, in, comparison);
     out["model_toml"] = format_model(in.given);
     out["refined_toml"] = refined ? Json(format_model(refined->model)) : Json(nullptr);

@@ -6,23 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <utility>
 
 namespace servoid::studio {
 
 namespace {
-
-double error_of(const Model& model, const std::vector<PreparedMotion>& motions) {
-    const Homing homing = homing_against(model, motions, 1);
-    double residual = 0, torque = 0;
-    for (size_t i = 0; i < motions.size(); ++i) {
-        residual +=
-            motions[i].used_power(residual_torque(at_zero(model, homing.of(i)), motions[i]));
-        torque += motions[i].used_power(motions[i].torque);
-    }
-    return std::sqrt(residual / torque);
-}
 
 // What was found holds for the very model only.
 void forget(Step& step) { step.diagnosis.reset(), step.refinement.reset(); }
@@ -31,7 +19,7 @@ void forget(Step& step) { step.diagnosis.reset(), step.refinement.reset(); }
 
 StepPtr as_it_is(Step step) {
     forget(step), step.fit.reset();
-    step.torque_error = error_of(step.model, step.material->motions());
+    step.torque_error = torque_error_of(step.model, step.material->motions());
     return std::make_shared<const Step>(std::move(step));
 }
 
